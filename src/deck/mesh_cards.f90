@@ -105,9 +105,9 @@ contains
    subroutine read_element(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer :: complete, kind
+      integer :: complete, k, kind
 
-      kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! the second-order kind where there is one
+      kind = maxval([(merge(k, 0, element_table(k)%card == card%name), k = 1, size(element_table))]) ! of second order where there is one
       if (card%name == 'CTRIAR') kind = kind_tria3
       if (card%name == 'CQUADR') kind = kind_quad4
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)

@@ -122,7 +122,6 @@ contains
          analysis = whole
       else
          attempt%converged = .true.
-         if (attempt%trouble%raised) attempt%iteration = 0 ! no factor is there to measure the path with
          analysis%record = whole%record
          analysis%record%is_whole = .false.
       end if

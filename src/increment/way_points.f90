@@ -135,7 +135,7 @@ contains
    end subroutine exchange_states
 
    !> The DIRECTION that balances the RESIDUAL with the factor of the last iteration, and of coupled equations but a share PRECISION
-   !! of it.
+   !! of it. Where the last factorisation has failed, as in an attempt that was given up, there is none.
    subroutine correction(model, system, residual, is_coupled, precision, direction, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -145,7 +145,9 @@ contains
       real(wp), intent(out)                 :: direction(:, :)
       type(failure_type), intent(inout)     :: failure
 
-      if (is_coupled) then
+      if (system%has_failed) then
+         call failure%raise('no factor')
+      else if (is_coupled) then
          direction = residual
          call solve_coupled_again(model, precision, system, direction, failure)
       else

@@ -88,6 +88,7 @@ module equation_solver
       real(wp), allocatable :: diagonal(:)           !! (n) of the matrix whose factor the solver holds
       real(wp) :: weakest = 1.0_wp                   !! smallest pivot of the present factor relative to the original diagonal
                                                      !! entry; 1: no factor
+      logical :: has_failed = .false.                !! the last factorisation has: there is no factor
       character(:), allocatable :: formed_in         !! stage and increment of the present k_int, for messages
       character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started

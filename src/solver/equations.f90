@@ -137,6 +137,7 @@ contains
          system%k_int(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i))
       end do
       call system%form_structure(fault)
+      system%has_failed = fault /= 0
       system%coupled%serves = fault == 0 .and. .not. system%options%one_solution
       call system%report_fault(model, fault, system%formed_in, failure)
    end subroutine form_structure_stiffness
@@ -172,6 +173,7 @@ contains
       system%options%digits = exact_digits
       if (present(digits)) system%options%digits = digits
       call system%solve(x, fault)
+      system%has_failed = fault /= 0
       call system%report_fault(model, fault, system%formed_in, failure)
       if (failure%raised) return
       i = findloc(is_measure(x(system%equations)), .false., dim=1)
