@@ -107,7 +107,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: complete, k, kind
 
-      kind = maxval([(merge(k, 0, element_table(k)%card == card%name), k = 1, size(element_table))]) ! of second order where there is one
+      ! of second order where there is one
+      kind = maxval([(merge(k, 0, element_table(k)%card == card%name), k = 1, size(element_table))])
       if (card%name == 'CTRIAR') kind = kind_tria3
       if (card%name == 'CQUADR') kind = kind_quad4
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
