@@ -99,7 +99,8 @@ contains
                end if
                if (agrees .or. attempt%n_moving == 0) attempt%missing = search%missing ! of the larger part
                if (attempt%n_moving == 0) attempt%leaves = search%leaves
-               if (attempt%is_limited) estimate = min(estimate, ends(1) + search%limit)
+               if (attempt%is_limited .and. search%limit > 0.0_wp) estimate = min(estimate, ends(1) + search%limit)
+               if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
                call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
                exit
             end if

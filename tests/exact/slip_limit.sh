@@ -34,6 +34,20 @@ run limit_pulled 3
 says 'shear without friction: the message' "$work/limit_pulled.log" \
    'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
 
+# The push grows while the pressure falls, FX s = 0.2 (1000 - FY s): held limits of friction bear nothing and tell no limit load.
+for load in '300. 4000.' '3000. 4000.' '300. 900.'; do
+   limit limit_falling $load
+   sed -i 's/^LOAD,4,.*/LOAD,4,1.,1.,1,1.,2;JINCR,2,1;ENDDATA/' "$work/limit_falling.bdf"
+   sed -i 's/;/\n/g' "$work/limit_falling.bdf"
+   rm -f "$work/limit_falling".*.csv "$work/limit_falling.out"
+   run limit_falling 3
+   says "pushed while the pressure falls, $load: the message" "$work/limit_falling.log" 'joint 1 slips .*of force are missing'
+   set -- $load $(sed -n 's/.*last state in equilibrium is at \([0-9.]*\) of stage 2.*/\1/p' "$work/limit_falling.log") \
+      $(awk -v only=2 -f tests/bench/iterations.awk "$work/limit_falling.out" | awk '{ print $2; exit }')
+   same "pushed while the pressure falls, $load: at $3 after $4 iterations" \
+      "$(awk "BEGIN { limit = 200/($1 + 0.2*$2); print ($3 > 0.95*limit && $3 < 1.0005*limit && $4 > 0 && $4 <= 60) }")" 1
+done
+
 # A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. In
 # one increment its shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
 cards oblique <<END
