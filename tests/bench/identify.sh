@@ -3,7 +3,7 @@
 #
 #    identify.sh JOINTFEM JOINTFIT FOLDER SHAPE
 #
-# SHAPE  hex8_11x11x64: a column of 11 x 11 CHEXA, 150 wide and 64 of them high, on a rigid base by one joint
+# SHAPE  hex8_11x11x64: a column of 11 x 11 CHEXA, 150 by 120, and 64 of them high, on a rigid base by one joint
 #
 # Known C, M, A11, A12 give the frequencies of four modes under three loads, which are changed by up to 1 %. jointfit begins with other values.
 # `once` are the seconds of processor time in which jointfem orders, forms, factorises and solves the equations once, in one increment;
@@ -30,7 +30,7 @@ SUBCASE 3
   LOAD = 30
 BEGIN BULK
 BLOCK3,1,1,$nx,$ny,$nz,0.0,0.0,0.0
-+,150.0,150.0,$(awk "BEGIN { printf \"%.4f\", 150*$nz/$nx }"),,,,1,1
++,150.0,120.0,$(awk "BEGIN { printf \"%.4f\", 150*$nz/$nx }"),,,,1,1
 +,,,,,20,23
 PSOLID,1,1,,,,PLAIN
 MAT1,1,1.1E5,,0.25,7.2E-9
