@@ -10,7 +10,7 @@ module deck_lines
    implicit none
    private
 
-   public :: scan_line, is_executive, is_include, is_open, file_named_by, path_beside, repeats_of, repeated
+   public :: scan_line, executive_control, is_include, is_open, file_named_by, path_beside, repeats_of, repeated
 
    !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
    type, public :: line_place
@@ -124,29 +124,25 @@ contains
       if (is_regular_file(deck(:index(deck, '/', back=.true.))//path)) full = deck(:index(deck, '/', back=.true.))//path
    end function path_beside
 
-   !> Whether the line that begins at AT in BYTES stands in executive control: behind SOL, and before CEND.
-   logical function is_executive(bytes, at)
-      character(*), intent(in)  :: bytes
-      integer(long), intent(in) :: at
+   !> Where executive control begins and ends in BYTES: the first lines with SOL, and with CEND or BEGIN; 0 where there is no CEND.
+   pure function executive_control(bytes) result(range)
+      character(*), intent(in) :: bytes
+      integer(long) :: range(2), next, start
+      character(:), allocatable :: line
 
-      is_executive = begins_with(bytes(:at - 1), 'SOL ') .and. .not. begins_with(bytes(:at - 1), 'CEND') .and. &
-                     .not. begins_with(bytes(:at - 1), 'BEGIN') .and. begins_with(bytes(at:), 'CEND')
-   end function is_executive
-
-   !> Whether a line of BYTES begins with WORD.
-   logical function begins_with(bytes, word)
-      character(*), intent(in) :: bytes, word
-      integer(long) :: next, start
-
-      begins_with = .false.
+      range = [len(bytes, long) + 1, 0_long]
       start = 1
-      do while (start <= len(bytes, long) .and. .not. begins_with)
+      do while (start <= len(bytes, long))
          next = index(bytes(start:), achar(10), kind=long)
          if (next == 0) next = len(bytes, long) - start + 2
-         begins_with = index(upper(adjustl(bytes(start:min(start + next - 2, start + 79))))//' ', word) == 1
+         line = upper(adjustl(bytes(start:min(start + next - 2, start + 79))))//' '
+         if (index(line, 'SOL ') == 1) range(1) = min(range(1), start)
+         if (range(2) == 0 .and. (index(line, 'BEGIN') == 1 .or. index(line, 'CEND') == 1)) range(2) = start
+         if (index(line, 'CEND') == 1) return
          start = start + next
       end do
-   end function begins_with
+      range(2) = 0
+   end function executive_control
 
    !> How many cards LINE repeats: 0 where it repeats none, 1 for '=, *(1), =, ==' and 'PBAR,102,=,==', N for '=(N)' and '=N', which
    !! repeat the STEPS of a line before; -1 where these cannot be read.

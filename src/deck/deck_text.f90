@@ -4,7 +4,8 @@ module deck_text
    use checksum, only: add_to_checksum, no_bytes
    use terminal, only: standard_input
    use deck_errors, only: deck_error_list
-   use deck_lines, only: file_named_by, is_executive, is_include, is_open, line_place, path_beside, repeated, repeats_of, scan_line
+   use deck_lines, only: executive_control, file_named_by, is_include, is_open, line_place, path_beside, repeated, repeats_of, &
+                         scan_line
    use deck_parameters, only: fill_parameters, parameter_type
    use kinds, only: long
    use lists, only: first_not_below
@@ -23,6 +24,7 @@ module deck_text
       character(:), allocatable :: path      ! as the user wrote it
       character(:), allocatable :: true_path
       character(:), allocatable :: bytes
+      integer(long) :: executive(2) = 0      ! of executive_control, once it is asked for
       integer :: parent = 0                  ! file with the INCLUDE; 0: this is the deck itself
    end type source_file
 
@@ -389,11 +391,14 @@ contains
       if (is_regular_file(path)) call add_file(text, path, me, depth + 1, errors, followed)
       if (followed) return
       path = 'INCLUDE: '''//path(:min(len(path), 200))//''' cannot be read: no such file, or not a file'
-      if (.not. is_executive(text%files(me)%bytes, text%lines(here)%start)) then
-         call errors%add(here, path)
-      else
-         call errors%warn(path//' ('//text%place(here)//'); before CEND such a file has DMAP, which is not followed')
-      end if
+      associate (control => text%files(me)%executive, at => text%lines(here)%start)
+         if (control(1) == 0) control = executive_control(text%files(me)%bytes)
+         if (at > control(1) .and. at < control(2)) then
+            call errors%warn(path//' ('//text%place(here)//'); before CEND such a file has DMAP, which is not followed')
+         else
+            call errors%add(here, path)
+         end if
+      end associate
    end subroutine follow_include
 
 end module deck_text

@@ -76,7 +76,7 @@ contains
          left = 1.0_wp - ends(2)
          if (done + part < ends(2)) left = 1.0_wp - done - part
          attempt%expected = [1.0_wp, 0.0_wp]
-         if (done > ends(1) .and. attempt%is_limited) &
+         if (done > ends(1) .and. attempt%is_limited) & ! without a limit load below zero: given limits begin, nothing agrees
             attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
          attempt%only = search%only
          call try_part(model, system, analysis, left, attempt)

@@ -35,8 +35,8 @@ module newton_trial
       logical  :: renews = .false.                !! an iteration at least: other runs go on with its factor
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       real(wp) :: expected(2) = [1.0_wp, 0.0_wp]  !! bounds of BEARABLE that agree with such a part, none if the first is larger [-]
-      integer  :: most = most_iterations          !! iterations
-      integer  :: only = 0                        !! the only way of increment_parts that is tried, 0: all
+      integer  :: most = most_iterations          !! most iterations of the present way
+      integer  :: only = 0                        !! the ways of increment_parts that are tried, 0: all
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
       integer  :: iteration = 0

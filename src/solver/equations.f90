@@ -173,7 +173,7 @@ contains
       system%options%digits = exact_digits
       if (present(digits)) system%options%digits = digits
       call system%solve(x, fault)
-      system%has_failed = fault /= 0
+      system%has_failed = system%has_failed .or. fault /= 0
       call system%report_fault(model, fault, system%formed_in, failure)
       if (failure%raised) return
       i = findloc(is_measure(x(system%equations)), .false., dim=1)

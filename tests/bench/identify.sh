@@ -13,9 +13,9 @@ jointfem=$1 jointfit=$2 folder=$3 shape=$4
 export LC_ALL=C OPENBLAS_NUM_THREADS=1
 IFS='x' read -r nx ny nz <<< "${shape#*_}"
 name=$folder/$shape
+truth=(--set C=5.0E-3 --set M=0.5 --set A11=40.0 --set A12=60.0)
 mkdir -p "$folder"
-{
-   cat << END
+cat > "$name.bdf" << END
 METHOD = NEWTON
 OUTPUT = NONE
 STIFFNESS = LOAD
@@ -48,8 +48,7 @@ JINCR,5,5
 EIGRL,4,,,4
 ENDDATA
 END
-} > "$name.bdf"
-"$jointfem" -q -o "$folder" --set C=5.0E-3 --set M=0.5 --set A11=40.0 --set A12=60.0 "$name.bdf" > "$folder/said" 2>&1 || { cat "$folder/said" >&2; exit 1; }
+"$jointfem" -q -o "$folder" "${truth[@]}" "$name.bdf" > "$folder/said" 2>&1 || { cat "$folder/said" >&2; exit 1; }
 sed '/^SUBCASE 2/,/^  LOAD = 30/d; /^MODES/d; /^STIFF/d; /^EIGRL/d; s/= NEWTON/= STEP/; s/^JINCR.*/JINCR,5,1/' "$name.bdf" > "$name.once.bdf"
 {
    printf 'parameter,%s\n' C,8.0E-3 M,0.6 A11,60.0 A12,40.0
@@ -59,7 +58,7 @@ sed '/^SUBCASE 2/,/^  LOAD = 30/d; /^MODES/d; /^STIFF/d; /^EIGRL/d; s/= NEWTON/=
 } > "$name.csv"
 {
    for turn in 1 2 3; do
-      "$jointfem" --times --threads 1 -q -o "$folder" --set C=5.0E-3 --set M=0.5 --set A11=40.0 --set A12=60.0 "$name.once.bdf" 2>&1 |
+      "$jointfem" --times --threads 1 -q -o "$folder" "${truth[@]}" "$name.once.bdf" 2>&1 |
          awk '/: (order|factor|increments|recover) / { once += $(NF - 1) } END { print "once", once }'
       TIMEFORMAT=$'all %3U'
       { time OMP_NUM_THREADS=1 "$jointfit" --structure "$name.bdf" --measured "$name.csv" > "$name.found" 2> "$folder/said"; } 2>&1 ||
