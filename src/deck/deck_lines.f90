@@ -128,14 +128,14 @@ contains
    pure function executive_control(bytes) result(range)
       character(*), intent(in) :: bytes
       integer(long) :: range(2), next, start
-      character(:), allocatable :: line
+      character(80) :: line
 
       range = [len(bytes, long) + 1, 0_long]
       start = 1
       do while (start <= len(bytes, long))
          next = index(bytes(start:), achar(10), kind=long)
          if (next == 0) next = len(bytes, long) - start + 2
-         line = upper(adjustl(bytes(start:min(start + next - 2, start + 79))))//' '
+         line = upper(adjustl(bytes(start:min(start + next - 2, start + 78))))
          if (index(line, 'SOL ') == 1) range(1) = min(range(1), start)
          if (range(2) == 0 .and. (index(line, 'BEGIN') == 1 .or. index(line, 'CEND') == 1)) range(2) = start
          if (index(line, 'CEND') == 1) return
