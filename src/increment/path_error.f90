@@ -155,7 +155,7 @@ contains
          if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
          surely = .true.
       end do
-      system%coupled = tally
+      if (system%coupled%n_factors == tally%n_factors) system%coupled = tally
    end subroutine measure_path
 
    !> Whether the committed state TURNS back: if the part's CHANGE of load went on, an element on the loading branch would be let go by

@@ -1,19 +1,23 @@
 !> The unsymmetric equations of NEWTON with friction: solved by conjugate residuals, with the factor of a symmetric stiffness as
 !! preconditioner, which is kept while this pays.
 module coupled_equations
-   use equation_solver, only: equation_system, failure_type, solver_direction
+   use equation_solver, only: equation_system, failure_type
    use equations, only: form_structure_stiffness, solve_equations
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
+   use kept_directions, only: make_room, orthonormalise, reduce_along, start_directions
    use kinds, only: wp
    use model_data, only: model_type
-   use tolerances, only: dependent_product
    implicit none
    private
 
    public :: solve_coupled, solve_coupled_again
 
    integer, parameter :: digits = 7      ! of an iterative solution within an iteration
-   integer, parameter :: most_kept = 24  ! directions of earlier coupled systems
+   integer, parameter :: most_kept = 96      ! directions of earlier coupled systems and of the present one
+   integer, parameter :: most_changed = 16   ! elements whose forces become directions at once, three each
+   integer, parameter :: per_step = 8        ! directions whose solution at once costs as much as a step
+   real(wp), parameter :: much = 0.1_wp      ! of the stiffness of an element, and of the largest change: one that is large
+   real(wp), parameter :: share_of_axis = 0.1_wp ! of the change in all axes: an axis in which it acts
 
 contains
 
@@ -32,7 +36,8 @@ contains
       real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
       real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
-      integer  :: i, symmetric_steps, steps
+      integer, allocatable :: changed(:)
+      integer  :: i, none(0), symmetric_steps, steps
 
       if (.not. allocated(system%coupled%change)) allocate (system%coupled%change, mold=rest)
       associate (tally => system%coupled)
@@ -43,20 +48,22 @@ contains
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
             symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
-            call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure)
+            call find_changed(k_int, system, changed)
+            call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed)
             if (failure%raised) return
             tally%extra = max(0, steps - symmetric_steps)
             tally%spent = tally%spent + tally%extra
             tally%solved = tally%solved + 1
             if (steps <= symmetric_steps + tally%price) return
          end if
-         if (allocated(tally%kept)) deallocate (tally%kept)
+         tally%kept%n = 0
+         tally%is_direction = [(.false., i=1, size(rest, 3))]
          call form_structure_stiffness(model, k_int, where, system, failure)
          do i = 1, size(rest, 3)
             tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
          u = load
-         call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure)
+         call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure, none)
          tally%symmetric_steps = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
@@ -73,15 +80,16 @@ contains
       type(failure_type), intent(inout)     :: failure
       integer :: steps
 
-      call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure, again=.true.)
+      call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure)
    end subroutine solve_coupled_again
 
    !> Replace the forces U by the displacements with ([k] + sum of CHANGE) u = f by generalised conjugate residuals in STEPS steps,
    !! [k] being the stiffness in SYSTEM. STEPS exceeds MOST_STEPS where the residual is not below TOLERANCE times that of u = 0.
-   !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution.
+   !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution. Elements
+   !! that have CHANGED since [k] was factorised would take a step each: their own forces become directions, all in one solution.
    !! Sources: Eisenstat, Elman, Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al.,
    !! SIAM J. Sci. Comput. 28 (2006) 1651-1674.
-   subroutine iterate_coupled(model, tolerance, most_steps, system, u, steps, failure, again)
+   subroutine iterate_coupled(model, tolerance, most_steps, system, u, steps, failure, changed)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: tolerance
       integer, intent(in)                   :: most_steps
@@ -89,11 +97,11 @@ contains
       real(wp), intent(inout)               :: u(:, :)
       integer, intent(out)                  :: steps
       type(failure_type), intent(inout)     :: failure
-      logical, intent(in), optional         :: again       !! the kept directions are those of this system; false
-      type(solver_direction), allocatable :: directions(:)
+      integer, intent(in), optional         :: changed(:) !! elements; absent: the products of the kept directions are those of this
+                                                          !! system
       logical  :: held(size(u, 1), size(u, 2))
-      real(wp) :: left(size(u, 1), size(u, 2)), enough
-      integer  :: i, n, n_kept
+      real(wp) :: left(size(u, 1), size(u, 2)), enough, new(size(u, 1), size(u, 2))
+      integer  :: first
 
       steps = 0
       held = system%held_now()
@@ -101,89 +109,132 @@ contains
       u = 0.0_wp
       enough = tolerance*norm2(left)
       if (failure%raised .or. enough <= 0.0_wp) return
-      n_kept = 0
-      if (allocated(system%coupled%kept)) n_kept = size(system%coupled%kept)
-      allocate (directions(n_kept + most_steps))
-      if (n_kept > 0) directions(:n_kept) = system%coupled%kept
-      n = merge(n_kept, 0, present(again))
-      do i = 1, n
-         call go_along(directions(i))
-      end do
-      do i = n + 1, n_kept ! new directions replace useless ones
-         if (i > n + 1) directions(n + 1) = directions(i)
-         call add_direction()
-      end do
-      do while (norm2(left) > enough)
-         steps = steps + 1
-         if (steps > most_steps) exit
-         associate (new => directions(n + 1))
-            new%force = left
-            new%u = left
-            call solve_equations(model, system, left, new%u, failure, digits=digits)
-         end associate
-         if (failure%raised) return
-         i = n
-         call add_direction()
-         if (n == i) steps = most_steps ! no direction reduces the residual
-      end do
-      system%coupled%kept = directions(max(0, n - most_kept) + 1:n)
-
-   contains
-
-      !> Reduce LEFT along direction N + 1 too, unless nothing new remains of it.
-      subroutine add_direction()
-         logical :: is_new
-
-         call complete_direction(system, held, directions(:n + 1), is_new)
-         if (.not. is_new) return
-         n = n + 1
-         call go_along(directions(n))
-      end subroutine add_direction
-
-      !> Reduce LEFT along a DIRECTION.
-      subroutine go_along(direction)
-         type(solver_direction), intent(in) :: direction
-         real(wp) :: share
-
-         share = sum(direction%product*left)
-         left = left - share*direction%product
-         u = u + share*direction%u
-      end subroutine go_along
-
+      associate (kept => system%coupled%kept)
+         if (.not. allocated(kept%u)) call start_directions(kept, size(u), most_kept)
+         if (present(changed)) call find_products(system, held, 1)
+         call reduce_along(kept, 1, left, u)
+         if (present(changed) .and. norm2(left) > enough) then
+            call add_forces(system, held, changed, first, steps)
+            call reduce_along(kept, first, left, u)
+         end if
+         do while (norm2(left) > enough)
+            steps = steps + 1
+            if (steps > most_steps) exit
+            new = left
+            call solve_equations(model, system, left, new, failure, digits=digits)
+            if (failure%raised) return
+            call make_room(kept, 1)
+            kept%n = kept%n + 1
+            first = kept%n
+            kept%u(:, first) = reshape(new, [size(u)])
+            kept%force(:, first) = reshape(left, [size(u)])
+            call find_products(system, held, first)
+            if (kept%n < first) steps = most_steps ! no direction reduces the residual
+            call reduce_along(kept, first, left, u)
+         end do
+      end associate
    end subroutine iterate_coupled
 
-   !> Find the product of the coupled stiffness and the last of DIRECTIONS, orthogonalise it against those of the others, and give
-   !! it the length 1. IS_NEW is false where nothing but rounding remains of it.
-   subroutine complete_direction(system, held, directions, is_new)
-      class(equation_system), intent(in)    :: system
-      logical, intent(in)                   :: held(:, :)    !! (dimension, retained)
-      type(solver_direction), intent(inout) :: directions(:)
-      logical, intent(out)                  :: is_new
-      real(wp) :: length, product(size(held, 1), size(held, 2)), share
-      integer  :: i
+   !> Add directions whose forces are those of the elements CHANGED, in the axes in which CHANGE acts, FIRST being the first of them.
+   !! STEPS is what their solution costs.
+   subroutine add_forces(system, held, changed, first, steps)
+      class(equation_system), intent(inout) :: system
+      logical, intent(in)                   :: held(:, :)
+      integer, intent(in)                   :: changed(:)
+      integer, intent(out)                  :: first, steps
+      real(wp), allocatable :: x(:, :)
+      real(wp) :: acts(3), force(size(held, 1), size(held, 2)), u(size(held, 1), size(held, 2))
+      integer  :: axis, i, j, n
 
-      associate (new => directions(size(directions)))
-         product = 0.0_wp
-         do i = 1, size(system%interface)
-            associate (element => system%interface(i))
-               call add_global_force(element, matmul(system%coupled%change(:, :, i), relative_movement(element, new%u)), product)
+      allocate (x(system%n, 3*size(changed)))
+      n = 0
+      associate (kept => system%coupled%kept)
+         call make_room(kept, 3*size(changed))
+         first = kept%n + 1
+         do i = 1, size(changed)
+            associate (element => system%interface(changed(i)))
+               acts = norm2(matmul(transpose(element%axes), system%coupled%change(:, :, changed(i))), dim=2)
+               do axis = 1, 3
+                  if (.not. acts(axis) > share_of_axis*maxval(acts)) cycle
+                  force = 0.0_wp
+                  call add_global_force(element, element%axes(:, axis), force)
+                  force = merge(0.0_wp, force, held)
+                  if (.not. norm2(force) > 0.0_wp) cycle
+                  n = n + 1
+                  call system%gather(force, x(:, n))
+                  kept%force(:, kept%n + n) = reshape(force, [size(force)])
+               end do
             end associate
          end do
-         new%product = merge(0.0_wp, product, held) + new%force
-         length = norm2(new%product)
-         do i = 1, size(directions) - 1
-            share = sum(directions(i)%product*new%product)
-            new%product = new%product - share*directions(i)%product
-            new%u = new%u - share*directions(i)%u
-            new%force = new%force - share*directions(i)%force
+         call system%precondition_many(x(:, :n))
+         do j = 1, n
+            call system%put(x(:, j), u)
+            kept%u(:, kept%n + j) = reshape(u, [size(u)])
          end do
-         is_new = norm2(new%product) > dependent_product*length
-         if (.not. is_new) return
-         length = norm2(new%product)
-         new%product = new%product/length
-         new%u = new%u/length
-         new%force = new%force/length
+         kept%n = kept%n + n
+         steps = merge((n - 1)/per_step + 1, 0, n > 0)
+         call find_products(system, held, first)
       end associate
-   end subroutine complete_direction
+   end subroutine add_forces
+
+   !> The products of the coupled stiffness and the kept directions from FIRST on, orthonormalised.
+   subroutine find_products(system, held, first)
+      class(equation_system), intent(inout) :: system
+      logical, intent(in)                   :: held(:, :) !! (dimension, retained)
+      integer, intent(in)                   :: first
+      integer :: j
+
+      associate (kept => system%coupled%kept)
+         !$omp parallel do default(shared)
+         do j = first, kept%n
+            call add_change(system, held, kept%u(:, j), kept%force(:, j), kept%product(:, j))
+         end do
+         !$omp end parallel do
+         call orthonormalise(kept, first)
+      end associate
+   end subroutine find_products
+
+   !> PRODUCT = FORCE + the forces of CHANGE at the displacements U.
+   subroutine add_change(system, held, u, force, product)
+      class(equation_system), intent(in) :: system
+      logical, intent(in)                :: held(:, :) !! (dimension, retained)
+      real(wp), intent(in)               :: u(size(held, 1), size(held, 2)), force(size(held, 1), size(held, 2))
+      real(wp), intent(out)              :: product(size(held, 1), size(held, 2))
+      integer :: i
+
+      product = 0.0_wp
+      do i = 1, size(system%interface)
+         associate (element => system%interface(i))
+            call add_global_force(element, matmul(system%coupled%change(:, :, i), relative_movement(element, u)), product)
+         end associate
+      end do
+      product = merge(0.0_wp, product, held) + force
+   end subroutine add_change
+
+   !> The elements whose stiffness K_INT has CHANGED most since it was factorised, without those whose forces are directions already.
+   subroutine find_changed(k_int, system, changed)
+      real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) in their axes
+      class(equation_system), intent(inout) :: system
+      integer, allocatable, intent(out)     :: changed(:)
+      real(wp) :: change(size(k_int, 3)), now(3, 3), least
+      integer  :: at, i
+
+      do i = 1, size(change)
+         now = global_stiffness(system%interface(i), k_int(:, :, i))
+         change(i) = norm2(now - system%k_int(:, :, i))
+         if (.not. change(i) > much*max(norm2(now), norm2(system%k_int(:, :, i)))) change(i) = 0.0_wp
+      end do
+      allocate (changed(0))
+      if (size(change) == 0) return
+      least = much*maxval(change)
+      where (system%coupled%is_direction) change = 0.0_wp
+      do while (size(changed) < most_changed)
+         at = maxloc(change, dim=1)
+         if (.not. change(at) > least) exit
+         changed = [changed, at]
+         change(at) = 0.0_wp
+         system%coupled%is_direction(at) = .true.
+      end do
+   end subroutine find_changed
 
 end module coupled_equations

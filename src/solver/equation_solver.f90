@@ -7,6 +7,7 @@
 !! otherwise. FAULT is 0, no_memory, no_solution, or an equation without stiffness.
 module equation_solver
    use interface_operator, only: interface_element
+   use kept_directions, only: direction_set
    use kinds, only: long, wp
    use model_data, only: model_type
    use node_graph, only: node_graph_type
@@ -47,13 +48,6 @@ module equation_solver
       integer :: digits = exact_digits               !! digits that the next solution needs, for an iterative solver
    end type solver_options
 
-   !> A direction in which a coupled system was solved.
-   type, public :: solver_direction
-      real(wp), allocatable :: u(:, :)               !! (dimension, retained) [length]
-      real(wp), allocatable :: force(:, :)           !! product of the factorised stiffness and u [force]
-      real(wp), allocatable :: product(:, :)         !! product of the coupled stiffness and u [force]
-   end type solver_direction
-
    !> Statistics of coupled systems solved by conjugate residuals, with the present factor as preconditioner.
    type, public :: coupled_tally
       integer :: most_steps = 25                     !! with a new factor
@@ -62,7 +56,9 @@ module equation_solver
       real(wp) :: symmetric_steps = 0.0_wp           !! steps per digit with the factor of the system's own symmetric part
       integer :: extra = 0                           !! steps beyond these in the last system
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
-      type(solver_direction), allocatable :: kept(:) !! directions of the last systems since the factorisation
+      integer :: n_factors = 0                       !! how often a stiffness was formed so far
+      type(direction_set) :: kept                    !! directions of the last systems since the factorisation
+      logical, allocatable :: is_direction(:)        !! (n) of interface elements: their forces have become directions
       real(wp), allocatable :: change(:, :, :)       !! (3, 3, n) the last system less the factorised k_int [force/length]
    end type coupled_tally
 
@@ -99,7 +95,8 @@ module equation_solver
       procedure(form_structure), deferred   :: form_structure
       procedure(multiply_vector), deferred  :: multiply
       procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
-      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, recover, solve_many, &
+      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, precondition_many, &
+                   recover, solve_many, &
                    forget_factors, forget_past
    end type equation_system
 
@@ -269,6 +266,18 @@ contains
          x(self%locked, i) = 0.0_wp
       end do
    end subroutine solve_many
+
+   !> Replace every column of X, at the EQUATIONS, by [k]^-1 times it, as precondition does. The abstract type takes one column after
+   !! the other.
+   subroutine precondition_many(self, x)
+      class(equation_system), intent(in)  :: self
+      real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
+      integer :: i
+
+      do i = 1, size(x, 2)
+         call self%precondition(x(:, i))
+      end do
+   end subroutine precondition_many
 
    !> The displacements X of all equations: at the EQUATIONS from U, elsewhere from what condense left in X.
    subroutine recover(self, u, x)

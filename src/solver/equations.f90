@@ -138,6 +138,7 @@ contains
       end do
       call system%form_structure(fault)
       system%has_failed = fault /= 0
+      system%coupled%n_factors = system%coupled%n_factors + 1
       system%coupled%serves = fault == 0 .and. .not. system%options%one_solution
       call system%report_fault(model, fault, system%formed_in, failure)
    end subroutine form_structure_stiffness

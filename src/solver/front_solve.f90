@@ -18,6 +18,7 @@ module front_solve
 
    integer, parameter :: few_rows = 150 ! of a front whose product with a vector is no task
    integer, parameter :: together = 5   ! columns that are solved at once, whatever the number of threads
+   integer, parameter :: more_together = 10 ! in the refactored fronts alone
 
    public :: sweep, solve_refactored, solve_columns, refactored_times_vector, factor_times_vector
 
@@ -224,19 +225,22 @@ contains
       end do
    end subroutine refactored_times_vector
 
-   !> [L S L^T]^-1 X on all equations for the columns of X, zero where locked. The panel of a front is read once for several
-   !! columns; others are those of other threads.
-   subroutine solve_columns(tree, x)
+   !> [L S L^T]^-1 X on all equations, or on the REFACTORED ones alone, for the columns of X, zero where locked. The panel of a front
+   !! is read once for several columns; others are those of other threads.
+   subroutine solve_columns(tree, refactored, x)
       type(front_tree_type), intent(in)   :: tree
+      logical, intent(in)                 :: refactored
       real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
       real(wp), allocatable :: own(:, :), beyond(:, :)
-      integer :: c, f, last
+      integer :: at_once, c, f, last
 
+      at_once = merge(more_together, together, refactored)
       !$omp parallel do default(shared) private(own, beyond, f, last) schedule(dynamic) if(tree%is_parallel)
-      do c = 1, size(x, 2), together
-         last = min(size(x, 2), c + together - 1)
+      do c = 1, size(x, 2), at_once
+         last = min(size(x, 2), c + at_once - 1)
          associate (y => x(:, c:last), m => last - c + 1)
             do f = 1, size(tree%fronts)
+               if (refactored .and. .not. tree%fronts(f)%is_refactored) cycle
                associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
                   own = y(first:first + p - 1, :)
                   where (spread(tree%locked(first:first + p - 1), 2, m)) own = 0.0_wp
@@ -248,6 +252,7 @@ contains
                end associate
             end do
             do f = size(tree%fronts), 1, -1
+               if (refactored .and. .not. tree%fronts(f)%is_refactored) cycle
                associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
                   own = y(first:first + p - 1, :)
                   if (allocated(front%negative)) own(front%negative, :) = -own(front%negative, :)

@@ -40,7 +40,7 @@ module tree_solver
       logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
    contains
       procedure :: lay_out, start, form_bodies, add_to_bodies, condense, form_structure, solve, multiply, recover
-      procedure :: forget_factors, forget_past, precondition, solve_by_factor, solve_many, multiply_by_factor
+      procedure :: forget_factors, forget_past, precondition, precondition_many, solve_by_factor, solve_many, multiply_by_factor
    end type tree_solver_type
 
 contains
@@ -271,8 +271,15 @@ contains
       class(tree_solver_type), intent(in) :: self
       real(wp), contiguous, intent(inout) :: x(:, :)
 
-      call solve_columns(self%fronts, x)
+      call solve_columns(self%fronts, refactored=.false., x=x)
    end subroutine solve_many
+
+   subroutine precondition_many(self, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout) :: x(:, :)
+
+      call solve_columns(self%fronts, refactored=.true., x=x)
+   end subroutine precondition_many
 
    subroutine multiply_by_factor(self, x)
       class(tree_solver_type), intent(in) :: self

@@ -1,0 +1,171 @@
+!> Directions in which coupled systems were solved, with their products with the stiffness, which are orthonormal: a load is reduced
+!! along all of them at once. Rows are taken in chunks, by several threads; sums over the chunks have one order, so that no digit
+!! depends on the number of threads.
+!! Source: products are orthogonalised as blocks, twice: Barlow, Smoktunowicz, Numer. Math. 123 (2013) 395-423; among themselves by
+!! Cholesky's factor of their Gram matrix, with pivots: Fukaya et al., SIAM J. Sci. Comput. 42 (2020) A477-A503.
+module kept_directions
+   use blas_lapack, only: dgemm, dpotrf, dpstrf, dtrsm
+   use kinds, only: wp
+   use tolerances, only: dependent_energy, dependent_product
+   implicit none
+   private
+
+   public :: start_directions, make_room, orthonormalise, reduce_along
+
+   integer, parameter :: chunk = 4096 ! rows
+
+   type, public :: direction_set
+      integer :: n = 0                          !! directions
+      real(wp), allocatable :: u(:, :)          !! (rows, room for directions): row (node - 1)*dimension + direction [length]
+      real(wp), allocatable :: force(:, :)      !! likewise, product of the factorised stiffness and u [force]
+      real(wp), allocatable :: product(:, :)    !! likewise, product of the coupled stiffness and u [force]
+   end type direction_set
+
+contains
+
+   !> No direction, with ROOM for some of so many ROWS.
+   subroutine start_directions(set, rows, room)
+      type(direction_set), intent(out) :: set
+      integer, intent(in)              :: rows, room
+
+      allocate (set%u(rows, room), set%force(rows, room), set%product(rows, room))
+   end subroutine start_directions
+
+   !> Drop the oldest directions where there is no room for MORE.
+   subroutine make_room(set, more)
+      type(direction_set), intent(inout) :: set
+      integer, intent(in)                :: more
+      integer :: j, old
+
+      old = set%n + more - size(set%u, 2)
+      if (old <= 0) return
+      do j = old + 1, set%n
+         set%u(:, j - old) = set%u(:, j)
+         set%force(:, j - old) = set%force(:, j)
+         set%product(:, j - old) = set%product(:, j)
+      end do
+      set%n = set%n - old
+   end subroutine make_room
+
+   !> Make the products of the directions from FIRST on orthonormal, to each other and to those before. Directions of whose products
+   !! nothing but rounding remains are left out.
+   subroutine orthonormalise(set, first)
+      type(direction_set), intent(inout) :: set
+      integer, intent(in)                :: first
+      real(wp), allocatable :: share(:, :), gram(:, :), work(:)
+      integer, allocatable  :: order(:)
+      integer  :: fault, j, k, pass, rank, rows
+
+      k = set%n - first + 1
+      if (k < 1) return
+      rows = size(set%u, 1)
+      do j = first, set%n
+         associate (size => norm2(set%product(:, j)))
+            if (size > 0.0_wp) call multiply_columns(1.0_wp/size, set%u(:, j), set%force(:, j), set%product(:, j))
+         end associate
+      end do
+      if (first > 1) then
+         do pass = 1, 2
+            share = inner_products(rows, first - 1, k, set%product, set%product(1, first))
+            call subtract_shares(rows, first - 1, k, set%product, share, set%product(1, first))
+            call subtract_shares(rows, first - 1, k, set%force, share, set%force(1, first))
+            call subtract_shares(rows, first - 1, k, set%u, share, set%u(1, first))
+         end do
+      end if
+      allocate (order(k), work(2*k))
+      gram = inner_products(rows, k, k, set%product(1, first), set%product(1, first))
+      call dpstrf('L', k, gram, k, order, rank, merge(dependent_product**2, dependent_energy, k == 1), work, fault)
+      order = first - 1 + order
+      set%product(:, first:set%n) = set%product(:, order)
+      set%force(:, first:set%n) = set%force(:, order)
+      set%u(:, first:set%n) = set%u(:, order)
+      set%n = first - 1 + rank
+      if (rank > 0) call divide_columns(k, gram)
+      if (k == 1 .or. rank == 0) return
+      gram = inner_products(rows, rank, rank, set%product(1, first), set%product(1, first))
+      call dpotrf('L', rank, gram, rank, fault)
+      if (fault == 0) call divide_columns(rank, gram)
+
+   contains
+
+      !> The columns from FIRST on times the inverse of the transposed factor L.
+      subroutine divide_columns(k, l)
+         integer, intent(in)  :: k
+         real(wp), intent(in) :: l(k, k)
+         integer :: row, m
+
+         !$omp parallel do default(shared) private(m)
+         do row = 1, rows, chunk
+            m = min(chunk, rows - row + 1)
+            call dtrsm('R', 'L', 'T', 'N', m, rank, 1.0_wp, l, k, set%product(row, first), rows)
+            call dtrsm('R', 'L', 'T', 'N', m, rank, 1.0_wp, l, k, set%force(row, first), rows)
+            call dtrsm('R', 'L', 'T', 'N', m, rank, 1.0_wp, l, k, set%u(row, first), rows)
+         end do
+         !$omp end parallel do
+      end subroutine divide_columns
+
+   end subroutine orthonormalise
+
+   pure subroutine multiply_columns(by, a, b, c)
+      real(wp), intent(in)    :: by
+      real(wp), intent(inout) :: a(:), b(:), c(:)
+
+      a = by*a
+      b = by*b
+      c = by*c
+   end subroutine multiply_columns
+
+   !> Reduce LEFT along the directions from FIRST on, whose part of the solution is added to U.
+   subroutine reduce_along(set, first, left, u)
+      type(direction_set), intent(in) :: set
+      integer, intent(in)             :: first
+      real(wp), intent(inout)         :: left(size(set%u, 1), 1) !! [force]
+      real(wp), intent(inout)         :: u(size(set%u, 1), 1)    !! [length]
+      real(wp), allocatable :: share(:, :)
+      integer :: k, rows
+
+      if (set%n < first) return
+      rows = size(set%u, 1)
+      k = set%n - first + 1
+      share = inner_products(rows, k, 1, set%product(1, first), left)
+      call subtract_shares(rows, k, 1, set%product(1, first), share, left)
+      call subtract_shares(rows, k, 1, set%u(1, first), -share, u)
+   end subroutine reduce_along
+
+   !> A^T B, of K and N columns.
+   function inner_products(rows, k, n, a, b) result(c)
+      integer, intent(in)  :: rows, k, n
+      real(wp), intent(in) :: a(rows, k), b(rows, n)
+      real(wp) :: c(k, n)
+      real(wp), allocatable :: of_chunk(:, :, :)
+      integer :: i, row
+
+      allocate (of_chunk(k, n, (rows - 1)/chunk + 1))
+      !$omp parallel do default(shared) private(row)
+      do i = 1, size(of_chunk, 3)
+         row = (i - 1)*chunk + 1
+         call dgemm('T', 'N', k, n, min(chunk, rows - row + 1), 1.0_wp, a(row, 1), rows, b(row, 1), rows, 0.0_wp, &
+                    of_chunk(1, 1, i), k)
+      end do
+      !$omp end parallel do
+      c = 0.0_wp
+      do i = 1, size(of_chunk, 3)
+         c = c + of_chunk(:, :, i)
+      end do
+   end function inner_products
+
+   !> B = B - A SHARE, likewise.
+   subroutine subtract_shares(rows, k, n, a, share, b)
+      integer, intent(in)     :: rows, k, n
+      real(wp), intent(in)    :: a(rows, k), share(k, n)
+      real(wp), intent(inout) :: b(rows, n)
+      integer :: row
+
+      !$omp parallel do default(shared)
+      do row = 1, rows, chunk
+         call dgemm('N', 'N', min(chunk, rows - row + 1), n, k, -1.0_wp, a(row, 1), rows, share, k, 1.0_wp, b(row, 1), rows)
+      end do
+      !$omp end parallel do
+   end subroutine subtract_shares
+
+end module kept_directions
