@@ -185,7 +185,7 @@ contains
       integer :: j
 
       associate (kept => system%coupled%kept)
-         !$omp parallel do default(shared)
+         !$omp parallel do default(shared) if(kept%n > first)
          do j = first, kept%n
             call add_change(system, held, kept%u(:, j), kept%force(:, j), kept%product(:, j))
          end do

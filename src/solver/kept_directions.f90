@@ -4,7 +4,7 @@
 !! Source: products are orthogonalised as blocks, twice: Barlow, Smoktunowicz, Numer. Math. 123 (2013) 395-423; among themselves by
 !! Cholesky's factor of their Gram matrix, with pivots: Fukaya et al., SIAM J. Sci. Comput. 42 (2020) A477-A503.
 module kept_directions
-   use blas_lapack, only: dgemm, dpotrf, dpstrf, dtrsm
+   use blas_lapack, only: dgemm, dgemv, dpotrf, dpstrf, dtrsm
    use kinds, only: wp
    use tolerances, only: dependent_energy, dependent_product
    implicit none
@@ -13,6 +13,7 @@ module kept_directions
    public :: start_directions, make_room, orthonormalise, reduce_along
 
    integer, parameter :: chunk = 4096 ! rows
+   integer, parameter :: at_once = 8  ! one direction of so many is dropped
 
    type, public :: direction_set
       integer :: n = 0                          !! directions
@@ -31,7 +32,7 @@ contains
       allocate (set%u(rows, room), set%force(rows, room), set%product(rows, room))
    end subroutine start_directions
 
-   !> Drop the oldest directions where there is no room for MORE.
+   !> Drop the oldest directions, several at once, where there is no room for MORE.
    subroutine make_room(set, more)
       type(direction_set), intent(inout) :: set
       integer, intent(in)                :: more
@@ -39,6 +40,7 @@ contains
 
       old = set%n + more - size(set%u, 2)
       if (old <= 0) return
+      old = min(set%n, max(old, size(set%u, 2)/at_once))
       do j = old + 1, set%n
          set%u(:, j - old) = set%u(:, j)
          set%force(:, j - old) = set%force(:, j)
@@ -52,8 +54,9 @@ contains
    subroutine orthonormalise(set, first)
       type(direction_set), intent(inout) :: set
       integer, intent(in)                :: first
-      real(wp), allocatable :: share(:, :), gram(:, :), work(:)
+      real(wp), allocatable :: share(:, :), shares(:, :), gram(:, :), work(:)
       integer, allocatable  :: order(:)
+      real(wp) :: largest, least
       integer  :: fault, j, k, pass, rank, rows
 
       k = set%n - first + 1
@@ -65,16 +68,21 @@ contains
          end associate
       end do
       if (first > 1) then
+         allocate (shares(first - 1, k), source=0.0_wp)
          do pass = 1, 2
             share = inner_products(rows, first - 1, k, set%product, set%product(1, first))
             call subtract_shares(rows, first - 1, k, set%product, share, set%product(1, first))
-            call subtract_shares(rows, first - 1, k, set%force, share, set%force(1, first))
-            call subtract_shares(rows, first - 1, k, set%u, share, set%u(1, first))
+            shares = shares + share
          end do
+         call subtract_shares(rows, first - 1, k, set%force, shares, set%force(1, first))
+         call subtract_shares(rows, first - 1, k, set%u, shares, set%u(1, first))
       end if
       allocate (order(k), work(2*k))
       gram = inner_products(rows, k, k, set%product(1, first), set%product(1, first))
-      call dpstrf('L', k, gram, k, order, rank, merge(dependent_product**2, dependent_energy, k == 1), work, fault)
+      least = merge(dependent_product**2, dependent_energy, k == 1)
+      largest = maxval([(gram(j, j), j = 1, k)])
+      call dpstrf('L', k, gram, k, order, rank, least, work, fault)
+      if (.not. largest > least) rank = 0 ! dpstrf takes the first pivot whatever its size
       order = first - 1 + order
       set%product(:, first:set%n) = set%product(:, order)
       set%force(:, first:set%n) = set%force(:, order)
@@ -94,7 +102,7 @@ contains
          real(wp), intent(in) :: l(k, k)
          integer :: row, m
 
-         !$omp parallel do default(shared) private(m)
+         !$omp parallel do default(shared) private(m) if(rows > chunk)
          do row = 1, rows, chunk
             m = min(chunk, rows - row + 1)
             call dtrsm('R', 'L', 'T', 'N', m, rank, 1.0_wp, l, k, set%product(row, first), rows)
@@ -141,11 +149,15 @@ contains
       integer :: i, row
 
       allocate (of_chunk(k, n, (rows - 1)/chunk + 1))
-      !$omp parallel do default(shared) private(row)
+      !$omp parallel do default(shared) private(row) if(rows > chunk)
       do i = 1, size(of_chunk, 3)
          row = (i - 1)*chunk + 1
-         call dgemm('T', 'N', k, n, min(chunk, rows - row + 1), 1.0_wp, a(row, 1), rows, b(row, 1), rows, 0.0_wp, &
-                    of_chunk(1, 1, i), k)
+         if (n == 1) then
+            call dgemv('T', min(chunk, rows - row + 1), k, 1.0_wp, a(row, 1), rows, b(row, 1), 1, 0.0_wp, of_chunk(1, 1, i), 1)
+         else
+            call dgemm('T', 'N', k, n, min(chunk, rows - row + 1), 1.0_wp, a(row, 1), rows, b(row, 1), rows, 0.0_wp, &
+                       of_chunk(1, 1, i), k)
+         end if
       end do
       !$omp end parallel do
       c = 0.0_wp
@@ -161,9 +173,13 @@ contains
       real(wp), intent(inout) :: b(rows, n)
       integer :: row
 
-      !$omp parallel do default(shared)
+      !$omp parallel do default(shared) if(rows > chunk)
       do row = 1, rows, chunk
-         call dgemm('N', 'N', min(chunk, rows - row + 1), n, k, -1.0_wp, a(row, 1), rows, share, k, 1.0_wp, b(row, 1), rows)
+         if (n == 1) then
+            call dgemv('N', min(chunk, rows - row + 1), k, -1.0_wp, a(row, 1), rows, share, 1, 1.0_wp, b(row, 1), 1)
+         else
+            call dgemm('N', 'N', min(chunk, rows - row + 1), n, k, -1.0_wp, a(row, 1), rows, share, k, 1.0_wp, b(row, 1), rows)
+         end if
       end do
       !$omp end parallel do
    end subroutine subtract_shares
