@@ -134,6 +134,7 @@ module tolerances
    real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of the solution, energy norm: steps are as good as a factor
    real(wp), parameter :: dependent_product = 1.0e-10_wp !! of the product of [k] and a direction: rounding of products
    real(wp), parameter :: dependent_energy = 1.0e-12_wp !! of the energy of a solution: the rest adds nothing to a guess
+   real(wp), parameter :: rounding_of_directions = 1.0e-9_wp !! of the largest load: a direction that balances less is not kept
 
    ! ---- vibration
    real(wp), parameter :: lanczos_tolerance = 1.0e-13_wp !! of nu: the error estimate of Lanczos, near rounding

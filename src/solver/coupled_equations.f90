@@ -7,6 +7,7 @@ module coupled_equations
    use kept_directions, only: make_room, orthonormalise, reduce_along, start_directions
    use kinds, only: wp
    use model_data, only: model_type
+   use tolerances, only: rounding_of_directions
    implicit none
    private
 
@@ -17,6 +18,7 @@ module coupled_equations
    integer, parameter :: most_changed = 16   ! elements whose forces become directions at once, three each
    integer, parameter :: per_step = 8        ! directions whose solution at once costs as much as a step
    real(wp), parameter :: much = 0.1_wp      ! of the stiffness of an element, and of the largest change: one that is large
+   real(wp), parameter :: grades = 5.0_wp    ! of changes: one grade is a factor of 1.2
    real(wp), parameter :: share_of_axis = 0.1_wp ! of the change in all axes: an axis in which it acts
 
 contains
@@ -57,6 +59,7 @@ contains
             if (steps <= symmetric_steps + tally%price) return
          end if
          tally%kept%n = 0
+         tally%largest = 0.0_wp
          tally%is_direction = [(.false., i=1, size(rest, 3))]
          call form_structure_stiffness(model, k_int, where, system, failure)
          do i = 1, size(rest, 3)
@@ -101,7 +104,8 @@ contains
                                                           !! system
       logical  :: held(size(u, 1), size(u, 2))
       real(wp) :: left(size(u, 1), size(u, 2)), enough, new(size(u, 1), size(u, 2))
-      integer  :: first
+      integer  :: first, lasting
+      logical  :: lasts
 
       steps = 0
       held = system%held_now()
@@ -110,14 +114,18 @@ contains
       enough = tolerance*norm2(left)
       if (failure%raised .or. enough <= 0.0_wp) return
       associate (kept => system%coupled%kept)
-         if (.not. allocated(kept%u)) call start_directions(kept, size(u), most_kept)
+         if (.not. allocated(kept%u)) &
+            call start_directions(kept, size(u), merge(most_kept, min(most_kept, most_steps + 1), system%coupled%price > 0))
          if (present(changed)) call find_products(system, held, 1)
          call reduce_along(kept, 1, left, u)
          if (present(changed) .and. norm2(left) > enough) then
             call add_forces(system, held, changed, first, steps)
             call reduce_along(kept, first, left, u)
          end if
+         system%coupled%largest = max(system%coupled%largest, enough/tolerance)
+         lasting = kept%n
          do while (norm2(left) > enough)
+            lasts = norm2(left) > rounding_of_directions*system%coupled%largest
             steps = steps + 1
             if (steps > most_steps) exit
             new = left
@@ -131,7 +139,9 @@ contains
             call find_products(system, held, first)
             if (kept%n < first) steps = most_steps ! no direction reduces the residual
             call reduce_along(kept, first, left, u)
+            if (lasts) lasting = kept%n
          end do
+         kept%n = min(kept%n, lasting) ! others would bring rounding to the next systems
       end associate
    end subroutine iterate_coupled
 
@@ -211,13 +221,14 @@ contains
       product = merge(0.0_wp, product, held) + force
    end subroutine add_change
 
-   !> The elements whose stiffness K_INT has CHANGED most since it was factorised, without those whose forces are directions already.
+   !> The elements whose stiffness K_INT has CHANGED most since it was factorised, without those whose forces are directions already. Of
+   !! elements that have changed nearly alike, as in symmetric structures, the first ones are taken: last bits do not choose.
    subroutine find_changed(k_int, system, changed)
       real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) in their axes
       class(equation_system), intent(inout) :: system
       integer, allocatable, intent(out)     :: changed(:)
       real(wp) :: change(size(k_int, 3)), now(3, 3), least
-      integer  :: at, i
+      integer  :: at, grade(size(k_int, 3)), i
 
       do i = 1, size(change)
          now = global_stiffness(system%interface(i), k_int(:, :, i))
@@ -227,12 +238,14 @@ contains
       allocate (changed(0))
       if (size(change) == 0) return
       least = much*maxval(change)
-      where (system%coupled%is_direction) change = 0.0_wp
+      where (system%coupled%is_direction .or. .not. change > least) change = 0.0_wp
+      where (change > 0.0_wp) grade = nint(grades*log(change/least))
+      where (.not. change > 0.0_wp) grade = -1
       do while (size(changed) < most_changed)
-         at = maxloc(change, dim=1)
-         if (.not. change(at) > least) exit
+         at = maxloc(grade, dim=1)
+         if (grade(at) < 0) exit
          changed = [changed, at]
-         change(at) = 0.0_wp
+         grade(at) = -1
          system%coupled%is_direction(at) = .true.
       end do
    end subroutine find_changed

@@ -58,6 +58,7 @@ module equation_solver
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
       integer :: n_factors = 0                       !! how often a stiffness was formed so far
       type(direction_set) :: kept                    !! directions of the last systems since the factorisation
+      real(wp) :: largest = 0.0_wp                   !! load since then, as its length [force]
       logical, allocatable :: is_direction(:)        !! (n) of interface elements: their forces have become directions
       real(wp), allocatable :: change(:, :, :)       !! (3, 3, n) the last system less the factorised k_int [force/length]
    end type coupled_tally

@@ -2,9 +2,9 @@
 !! along all of them at once. Rows are taken in chunks, by several threads; sums over the chunks have one order, so that no digit
 !! depends on the number of threads.
 !! Source: products are orthogonalised as blocks, twice: Barlow, Smoktunowicz, Numer. Math. 123 (2013) 395-423; among themselves by
-!! Cholesky's factor of their Gram matrix, with pivots: Fukaya et al., SIAM J. Sci. Comput. 42 (2020) A477-A503.
+!! Cholesky's factor of their Gram matrix, twice: Fukaya et al., SIAM J. Sci. Comput. 42 (2020) A477-A503.
 module kept_directions
-   use blas_lapack, only: dgemm, dgemv, dpotrf, dpstrf, dtrsm
+   use blas_lapack, only: dgemm, dgemv, dpotrf, dtrsm
    use kinds, only: wp
    use tolerances, only: dependent_energy, dependent_product
    implicit none
@@ -54,9 +54,8 @@ contains
    subroutine orthonormalise(set, first)
       type(direction_set), intent(inout) :: set
       integer, intent(in)                :: first
-      real(wp), allocatable :: share(:, :), shares(:, :), gram(:, :), work(:)
+      real(wp), allocatable :: share(:, :), shares(:, :), gram(:, :)
       integer, allocatable  :: order(:)
-      real(wp) :: largest, least
       integer  :: fault, j, k, pass, rank, rows
 
       k = set%n - first + 1
@@ -77,17 +76,16 @@ contains
          call subtract_shares(rows, first - 1, k, set%force, shares, set%force(1, first))
          call subtract_shares(rows, first - 1, k, set%u, shares, set%u(1, first))
       end if
-      allocate (order(k), work(2*k))
       gram = inner_products(rows, k, k, set%product(1, first), set%product(1, first))
-      least = merge(dependent_product**2, dependent_energy, k == 1)
-      largest = maxval([(gram(j, j), j = 1, k)])
-      call dpstrf('L', k, gram, k, order, rank, least, work, fault)
-      if (.not. largest > least) rank = 0 ! dpstrf takes the first pivot whatever its size
-      order = first - 1 + order
-      set%product(:, first:set%n) = set%product(:, order)
-      set%force(:, first:set%n) = set%force(:, order)
-      set%u(:, first:set%n) = set%u(:, order)
+      call factorise(merge(dependent_product**2, dependent_energy, k == 1), gram, order)
+      rank = size(order)
       set%n = first - 1 + rank
+      order = first - 1 + order
+      if (rank < k) then
+         set%product(:, first:set%n) = set%product(:, order)
+         set%force(:, first:set%n) = set%force(:, order)
+         set%u(:, first:set%n) = set%u(:, order)
+      end if
       if (rank > 0) call divide_columns(k, gram)
       if (k == 1 .or. rank == 0) return
       gram = inner_products(rows, rank, rank, set%product(1, first), set%product(1, first))
@@ -113,6 +111,30 @@ contains
       end subroutine divide_columns
 
    end subroutine orthonormalise
+
+   !> L, which replaces A, with L L^T = A for the rows TAKEN of A: those whose pivot, given the rows taken before, is above LEAST. They
+   !! stay in their order, which with the largest pivots first would hang on last bits.
+   pure subroutine factorise(least, a, taken)
+      real(wp), intent(in)              :: least
+      real(wp), intent(inout)           :: a(:, :)
+      integer, allocatable, intent(out) :: taken(:)
+      real(wp) :: l(size(a, 1), size(a, 1)), left
+      integer  :: i, j, n
+
+      l = 0.0_wp
+      allocate (taken(0))
+      do j = 1, size(a, 1)
+         n = size(taken) + 1
+         do i = 1, n - 1
+            l(n, i) = (a(j, taken(i)) - dot_product(l(i, :i - 1), l(n, :i - 1)))/l(i, i)
+         end do
+         left = a(j, j) - sum(l(n, :n - 1)**2)
+         if (.not. left > least) cycle
+         l(n, n) = sqrt(left)
+         taken = [taken, j]
+      end do
+      a = l
+   end subroutine factorise
 
    pure subroutine multiply_columns(by, a, b, c)
       real(wp), intent(in)    :: by
