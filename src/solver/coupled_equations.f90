@@ -1,7 +1,7 @@
 !> The unsymmetric equations of NEWTON with friction: solved by conjugate residuals, with the factor of a symmetric stiffness as
 !! preconditioner, which is kept while this pays.
 module coupled_equations
-   use equation_solver, only: equation_system, failure_type
+   use equation_solver, only: coupled_tally, equation_system, failure_type
    use equations, only: form_structure_stiffness, solve_equations
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kept_directions, only: make_room, orthonormalise, reduce_along, start_directions
@@ -13,7 +13,7 @@ module coupled_equations
 
    public :: solve_coupled, solve_coupled_again
 
-   integer, parameter :: digits = 7      ! of an iterative solution within an iteration
+   integer, parameter :: digits = 7          ! of an iterative solution within an iteration
    integer, parameter :: most_kept = 96      ! directions of earlier coupled systems and of the present one
    integer, parameter :: most_changed = 16   ! elements whose forces become directions at once, three each
    integer, parameter :: per_step = 8        ! directions whose solution at once costs as much as a step
@@ -50,6 +50,7 @@ contains
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
             symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
+            call follow_factor(tally, size(rest, 3))
             call find_changed(k_int, system, changed)
             call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed)
             if (failure%raised) return
@@ -58,10 +59,8 @@ contains
             tally%solved = tally%solved + 1
             if (steps <= symmetric_steps + tally%price) return
          end if
-         tally%kept%n = 0
-         tally%largest = 0.0_wp
-         tally%is_direction = [(.false., i=1, size(rest, 3))]
          call form_structure_stiffness(model, k_int, where, system, failure)
+         call follow_factor(tally, size(rest, 3))
          do i = 1, size(rest, 3)
             tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
@@ -73,6 +72,19 @@ contains
          tally%solved = 1
       end associate
    end subroutine solve_coupled
+
+   !> Forget the directions where they are those of another factor. N is the number of interface elements.
+   subroutine follow_factor(tally, n)
+      type(coupled_tally), intent(inout) :: tally
+      integer, intent(in)                :: n
+      integer :: i
+
+      if (tally%kept_for == tally%n_factors) return
+      tally%kept_for = tally%n_factors
+      tally%kept%n = 0
+      tally%largest = 0.0_wp
+      tally%is_direction = [(.false., i=1, n)]
+   end subroutine follow_factor
 
    !> Replace other forces U by the displacements under the stiffness of the last solve_coupled.
    subroutine solve_coupled_again(model, tolerance, system, u, failure)

@@ -57,6 +57,7 @@ module equation_solver
       integer :: extra = 0                           !! steps beyond these in the last system
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
       integer :: n_factors = 0                       !! how often a stiffness was formed so far
+      integer :: kept_for = 0                        !! of these, the one whose directions are KEPT; 0: none
       type(direction_set) :: kept                    !! directions of the last systems since the factorisation
       real(wp) :: largest = 0.0_wp                   !! load since then, as its length [force]
       logical, allocatable :: is_direction(:)        !! (n) of interface elements: their forces have become directions
