@@ -50,7 +50,7 @@ contains
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
             symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
-            call follow_factor(tally, size(rest, 3))
+            call follow_factor(tally)
             call find_changed(k_int, system, changed)
             call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed)
             if (failure%raised) return
@@ -60,7 +60,7 @@ contains
             if (steps <= symmetric_steps + tally%price) return
          end if
          call form_structure_stiffness(model, k_int, where, system, failure)
-         call follow_factor(tally, size(rest, 3))
+         call follow_factor(tally)
          do i = 1, size(rest, 3)
             tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
@@ -73,17 +73,16 @@ contains
       end associate
    end subroutine solve_coupled
 
-   !> Forget the directions where they are those of another factor. N is the number of interface elements.
-   subroutine follow_factor(tally, n)
+   !> Forget the directions where they are those of another factor.
+   subroutine follow_factor(tally)
       type(coupled_tally), intent(inout) :: tally
-      integer, intent(in)                :: n
       integer :: i
 
       if (tally%kept_for == tally%n_factors) return
       tally%kept_for = tally%n_factors
       tally%kept%n = 0
       tally%largest = 0.0_wp
-      tally%is_direction = [(.false., i=1, n)]
+      tally%is_direction = [(.false., i=1, size(tally%change, 3))]
    end subroutine follow_factor
 
    !> Replace other forces U by the displacements under the stiffness of the last solve_coupled.
@@ -194,6 +193,7 @@ contains
             kept%u(:, kept%n + j) = reshape(u, [size(u)])
          end do
          kept%n = kept%n + n
+         system%coupled%is_direction(changed) = .true.
          steps = merge((n - 1)/per_step + 1, 0, n > 0)
          call find_products(system, held, first)
       end associate
@@ -237,7 +237,7 @@ contains
    !! elements that have changed nearly alike, as in symmetric structures, the first ones are taken: last bits do not choose.
    subroutine find_changed(k_int, system, changed)
       real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) in their axes
-      class(equation_system), intent(inout) :: system
+      class(equation_system), intent(in)    :: system
       integer, allocatable, intent(out)     :: changed(:)
       real(wp) :: change(size(k_int, 3)), now(3, 3), least
       integer  :: at, grade(size(k_int, 3)), i
@@ -258,7 +258,6 @@ contains
          if (grade(at) < 0) exit
          changed = [changed, at]
          grade(at) = -1
-         system%coupled%is_direction(at) = .true.
       end do
    end subroutine find_changed
 

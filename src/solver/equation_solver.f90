@@ -59,7 +59,7 @@ module equation_solver
       integer :: n_factors = 0                       !! how often a stiffness was formed so far
       integer :: kept_for = 0                        !! of these, the one whose directions are KEPT; 0: none
       type(direction_set) :: kept                    !! directions of the last systems since the factorisation
-      real(wp) :: largest = 0.0_wp                   !! load since then, as its length [force]
+      real(wp) :: largest = 0.0_wp                   !! largest load since the factorisation, Euclidean norm [force]
       logical, allocatable :: is_direction(:)        !! (n) of interface elements: their forces have become directions
       real(wp), allocatable :: change(:, :, :)       !! (3, 3, n) the last system less the factorised k_int [force/length]
    end type coupled_tally

@@ -13,7 +13,7 @@ module kept_directions
    public :: start_directions, make_room, orthonormalise, reduce_along
 
    integer, parameter :: chunk = 4096 ! rows
-   integer, parameter :: at_once = 8  ! one direction of so many is dropped
+   integer, parameter :: at_once = 8  ! one part of so many of the room is made free at a time
 
    type, public :: direction_set
       integer :: n = 0                          !! directions
@@ -55,16 +55,19 @@ contains
       type(direction_set), intent(inout) :: set
       integer, intent(in)                :: first
       real(wp), allocatable :: share(:, :), shares(:, :), gram(:, :)
-      integer, allocatable  :: order(:)
+      real(wp) :: length
+      integer, allocatable :: order(:)
       integer  :: fault, j, k, pass, rank, rows
 
       k = set%n - first + 1
       if (k < 1) return
       rows = size(set%u, 1)
       do j = first, set%n
-         associate (size => norm2(set%product(:, j)))
-            if (size > 0.0_wp) call multiply_columns(1.0_wp/size, set%u(:, j), set%force(:, j), set%product(:, j))
-         end associate
+         length = norm2(set%product(:, j))
+         if (.not. length > 0.0_wp) cycle
+         set%u(:, j) = 1.0_wp/length*set%u(:, j)
+         set%force(:, j) = 1.0_wp/length*set%force(:, j)
+         set%product(:, j) = 1.0_wp/length*set%product(:, j)
       end do
       if (first > 1) then
          allocate (shares(first - 1, k), source=0.0_wp)
@@ -135,15 +138,6 @@ contains
       end do
       a = l
    end subroutine factorise
-
-   pure subroutine multiply_columns(by, a, b, c)
-      real(wp), intent(in)    :: by
-      real(wp), intent(inout) :: a(:), b(:), c(:)
-
-      a = by*a
-      b = by*b
-      c = by*c
-   end subroutine multiply_columns
 
    !> Reduce LEFT along the directions from FIRST on, whose part of the solution is added to U.
    subroutine reduce_along(set, first, left, u)
