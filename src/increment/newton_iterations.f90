@@ -9,6 +9,7 @@ module newton_iterations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
+   use nonlinear_elimination, only: eliminate_few, forces_at
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
@@ -47,7 +48,7 @@ contains
       real(wp), intent(in), optional        :: from(:, :) !! the first trial, if not the committed state
       type(trial_type), allocatable :: now, next
       type(straight_law), allocatable :: laws(:)
-      real(wp), allocatable :: direction(:, :), residual(:, :)
+      real(wp), allocatable :: at_now(:, :), direction(:, :), residual(:, :)
       integer :: at
       logical :: anew, guessed, moves
 
@@ -92,10 +93,13 @@ contains
          end if
          residual = residual_of(system, attempt%load, now, laws)
          attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below_tol*analysis%tolerance, system%coupled%price > 0)
+         at_now = forces_at(system, now, laws)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
+         if (attempt%iteration > 0 .and. .not. (moves .or. attempt%with_limits)) &
+            call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
          attempt%gain = 1.0_wp
          if (.not. (moves .or. allocated(attempt%seen))) call correct(model, system, analysis, attempt, now, next)
          call note_iteration(now, next, analysis, attempt)

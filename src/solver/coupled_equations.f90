@@ -4,19 +4,20 @@ module coupled_equations
    use equation_solver, only: coupled_tally, equation_system, failure_type
    use equations, only: form_structure_stiffness, solve_equations
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
-   use kept_directions, only: make_room, orthonormalise, reduce_along, start_directions
+   use kept_directions, only: direction_set, make_room, orthonormalise, reduce_along, start_directions
    use kinds, only: wp
    use model_data, only: model_type
    use tolerances, only: rounding_of_directions
    implicit none
    private
 
-   public :: solve_coupled, solve_coupled_again
+   public :: solve_coupled, solve_coupled_again, solve_coupled_columns
 
    integer, parameter :: digits = 7          ! of an iterative solution within an iteration
    integer, parameter :: most_kept = 96      ! directions of earlier coupled systems and of the present one
    integer, parameter :: most_changed = 16   ! elements whose forces become directions at once, three each
    integer, parameter :: per_step = 8        ! directions whose solution at once costs as much as a step
+   integer, parameter :: most_block_steps = 10
    real(wp), parameter :: much = 0.1_wp      ! of the stiffness of an element, and of the largest change: one that is large
    real(wp), parameter :: grades = 5.0_wp    ! of changes: one grade is a factor of 1.2
    real(wp), parameter :: share_of_axis = 0.1_wp ! of the change in all axes: an axis in which it acts
@@ -97,6 +98,48 @@ contains
       call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure)
    end subroutine solve_coupled_again
 
+   !> Replace every column of forces U by the displacements under the stiffness of the last solve_coupled, up to a share TOLERANCE of
+   !! the forces: all columns at once, each reduced along the directions of all.
+   subroutine solve_coupled_columns(tolerance, system, u)
+      real(wp), intent(in)                  :: tolerance
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(inout)               :: u(:, :, :)  !! (dimension, retained, columns) [force] on entry, [length] on return
+      type(direction_set) :: set
+      logical  :: held(size(u, 1), size(u, 2))
+      real(wp) :: enough(size(u, 3)), left(size(u, 1), size(u, 2), size(u, 3)), new(size(u, 1), size(u, 2))
+      real(wp), allocatable :: x(:, :)
+      integer, allocatable  :: unfinished(:)
+      integer :: first, i, j, step
+
+      held = system%held_now()
+      left = merge(0.0_wp, u, spread(held, 3, size(u, 3)))
+      u = 0.0_wp
+      enough = [(tolerance*norm2(left(:, :, i)), i = 1, size(u, 3))]
+      call start_directions(set, size(held), most_block_steps*size(u, 3))
+      do step = 1, most_block_steps
+         unfinished = pack([(i, i = 1, size(u, 3))], [(norm2(left(:, :, i)) > enough(i), i = 1, size(u, 3))])
+         if (size(unfinished) == 0) exit
+         allocate (x(system%n, size(unfinished)))
+         do i = 1, size(unfinished)
+            call system%gather(left(:, :, unfinished(i)), x(:, i))
+         end do
+         call system%precondition_many(x)
+         first = set%n + 1
+         do i = 1, size(unfinished)
+            call system%put(x(:, i), new)
+            j = set%n + i
+            set%u(:, j) = reshape(new, [size(new)])
+            set%force(:, j) = reshape(left(:, :, unfinished(i)), [size(new)])
+            call add_change(system, held, set%u(:, j), set%force(:, j), set%product(:, j))
+         end do
+         deallocate (x)
+         set%n = set%n + size(unfinished)
+         call orthonormalise(set, first)
+         if (set%n < first) exit ! no direction reduces the residuals
+         call reduce_along(set, first, size(u, 3), left, u)
+      end do
+   end subroutine solve_coupled_columns
+
    !> Replace the forces U by the displacements with ([k] + sum of CHANGE) u = f by generalised conjugate residuals in STEPS steps,
    !! [k] being the stiffness in SYSTEM. STEPS exceeds MOST_STEPS where the residual is not below TOLERANCE times that of u = 0.
    !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution. Elements
@@ -128,10 +171,10 @@ contains
          if (.not. allocated(kept%u)) &
             call start_directions(kept, size(u), merge(most_kept, min(most_kept, most_steps + 1), system%coupled%price > 0))
          if (present(changed)) call find_products(system, held, 1)
-         call reduce_along(kept, 1, left, u)
+         call reduce_along(kept, 1, 1, left, u)
          if (present(changed) .and. norm2(left) > enough) then
             call add_forces(system, held, changed, first, steps)
-            call reduce_along(kept, first, left, u)
+            call reduce_along(kept, first, 1, left, u)
          end if
          system%coupled%largest = max(system%coupled%largest, enough/tolerance)
          lasting = kept%n
@@ -149,7 +192,7 @@ contains
             kept%force(:, first) = reshape(left, [size(u)])
             call find_products(system, held, first)
             if (kept%n < first) steps = most_steps ! no direction reduces the residual
-            call reduce_along(kept, first, left, u)
+            call reduce_along(kept, first, 1, left, u)
             if (lasts) lasting = kept%n
          end do
          kept%n = min(kept%n, lasting) ! others would bring rounding to the next systems

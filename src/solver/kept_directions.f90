@@ -139,21 +139,21 @@ contains
       a = l
    end subroutine factorise
 
-   !> Reduce LEFT along the directions from FIRST on, whose part of the solution is added to U.
-   subroutine reduce_along(set, first, left, u)
+   !> Reduce COLUMNS of forces LEFT along the directions from FIRST on, whose part of the solution is added to U.
+   subroutine reduce_along(set, first, columns, left, u)
       type(direction_set), intent(in) :: set
-      integer, intent(in)             :: first
-      real(wp), intent(inout)         :: left(size(set%u, 1), 1) !! [force]
-      real(wp), intent(inout)         :: u(size(set%u, 1), 1)    !! [length]
+      integer, intent(in)             :: first, columns
+      real(wp), intent(inout)         :: left(size(set%u, 1), columns) !! [force]
+      real(wp), intent(inout)         :: u(size(set%u, 1), columns)    !! [length]
       real(wp), allocatable :: share(:, :)
       integer :: k, rows
 
       if (set%n < first) return
       rows = size(set%u, 1)
       k = set%n - first + 1
-      share = inner_products(rows, k, 1, set%product(1, first), left)
-      call subtract_shares(rows, k, 1, set%product(1, first), share, left)
-      call subtract_shares(rows, k, 1, set%u(1, first), -share, u)
+      share = inner_products(rows, k, columns, set%product(1, first), left)
+      call subtract_shares(rows, k, columns, set%product(1, first), share, left)
+      call subtract_shares(rows, k, columns, set%u(1, first), -share, u)
    end subroutine reduce_along
 
    !> A^T B, of K and N columns.

@@ -1,0 +1,217 @@
+!> Iterations of METHOD = NEWTON that a few interface elements hold up, by jumping to and fro over a kink of their laws: these elements
+!! take their exact laws, all others their straight ones, and the small problem that remains is solved. The structure is the factor of
+!! the iteration.
+!! With w the movements of the elements S after the iteration, s(w) the forces of their straight laws there, f those of the exact laws,
+!! and C the movements under unit forces at their ends,
+!!
+!!      x = w + C (s(x) - f(x))
+!!
+!! is solved by Newton's method with steps that are halved until what is left of these equations falls.
+!! Source: Lanzkron, Rose, Wilkes, SIAM J. Numer. Anal. 33 (1996) 1157-1178.
+module nonlinear_elimination
+   use analysis_state, only: analysis_type
+   use blas_lapack, only: dgesv
+   use coupled_equations, only: solve_coupled_columns
+   use equations, only: equation_system, solve_equations
+   use interface_operator, only: add_force, joint_movement
+   use joint_laws, only: element_state, force_of
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: attempt_type, evaluate_at, follow_law, trial_type
+   use straight_laws, only: direction_digits, straight_law
+   use tolerances, only: loose_direction, on_the_graph, shortest_step
+   implicit none
+   private
+
+   public :: forces_at, eliminate_few
+
+   integer, parameter  :: most = 8            ! elements
+   integer, parameter  :: most_dear = 8       ! of them where a solution takes long beside a factorisation
+   integer, parameter  :: most_steps = 60     ! of Newton's method
+   real(wp), parameter :: share = 0.05_wp     ! of the largest difference between straight and exact force: an element that counts
+   real(wp), parameter :: quick = 0.1_wp      ! of the residual: an iteration that leaves less needs no help
+
+contains
+
+   !> The forces of the straight LAWS at the movements of NOW, (3, n) [force].
+   function forces_at(system, now, laws) result(force)
+      class(equation_system), intent(in) :: system
+      type(trial_type), intent(in)       :: now
+      type(straight_law), intent(in)     :: laws(:)
+      real(wp) :: force(3, size(laws))
+      integer  :: i
+
+      do i = 1, size(laws)
+         force(:, i) = laws(i)%force + matmul(laws(i)%tangent, joint_movement(system%interface(i), now%u) - laws(i)%point)
+      end do
+   end function forces_at
+
+   !> Go on from NEXT, the end of a full step from NOW along straight LAWS with the forces AT_NOW, to where the few elements follow
+   !! their exact laws that leave nearly all of the residual at NEXT. NEXT is not changed where there are more of them, where the
+   !! step was quick, or where this leaves more residual.
+   subroutine eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system   !! with the stiffness of the step
+      type(analysis_type), intent(in)       :: analysis
+      type(attempt_type), intent(inout)     :: attempt
+      type(trial_type), intent(in)          :: now
+      real(wp), intent(in)                  :: at_now(:, :) !! (3, n) [force]
+      type(straight_law), intent(inout)     :: laws(:)  !! of the solved equations; the few elements get points of their graphs
+      type(trial_type), allocatable, intent(inout) :: next
+      type(trial_type), allocatable :: corrected
+      integer, allocatable  :: few(:)
+      real(wp), allocatable :: c(:, :), reached(:, :), x(:, :), z(:, :, :)
+      real(wp) :: straight(3, size(laws)), less(size(laws)), of_law(3)
+      logical  :: solved
+      integer  :: axis, i, j, k
+
+      if (attempt%step < 1.0_wp .or. .not. next%size < huge(1.0_wp) .or. next%size <= quick*now%size) return
+      do i = 1, size(laws)
+         straight(:, i) = at_now(:, i) + matmul(laws(i)%tangent, joint_movement(system%interface(i), next%u - now%u))
+         less(i) = norm2(straight(:, i) - force_of(model%joints%element(i)%area, next%states(i)))
+      end do
+      few = pack([(i, i = 1, size(laws))], less > share*maxval(less))
+      if (size(few) > merge(most_dear, most, system%coupled%price > 0)) return
+      allocate (z(size(next%u, 1), size(next%u, 2), 3*size(few)), source=0.0_wp)
+      allocate (c(3*size(few), 3*size(few)), reached(3, size(few)))
+      do j = 1, size(few)
+         do axis = 1, 3
+            of_law = 0.0_wp
+            of_law(axis) = 1.0_wp
+            call add_force(system%interface(few(j)), of_law, z(:, :, 3*(j - 1) + axis))
+         end do
+      end do
+      call solve(model, system, analysis%held, attempt, z)
+      if (attempt%trouble%raised) return
+      do j = 1, size(few)
+         do axis = 3*j - 2, 3*j
+            c(:, axis) = [(joint_movement(system%interface(few(k)), z(:, :, axis)), k = 1, size(few))]
+         end do
+         reached(:, j) = joint_movement(system%interface(few(j)), next%u)
+      end do
+      x = reached
+      call solve_few(model, analysis, attempt, few, laws, reached, straight(:, few), c, x, solved)
+      if (.not. solved) return
+      allocate (corrected, source=next)
+      corrected%u = next%u
+      do j = 1, size(few)
+         of_law = straight(:, few(j)) + matmul(laws(few(j))%tangent, x(:, j) - reached(:, j)) - force_on(few(j), x(:, j))
+         do axis = 1, 3
+            corrected%u = corrected%u + of_law(axis)*z(:, :, 3*(j - 1) + axis)
+         end do
+      end do
+      call evaluate_at(model, system, attempt, analysis, corrected%u, corrected)
+      if (.not. corrected%size < next%size) return
+      call move_alloc(corrected, next)
+      do j = 1, size(few)
+         laws(few(j))%point = joint_movement(system%interface(few(j)), next%u)
+         laws(few(j))%force = force_of(model%joints%element(few(j))%area, next%states(few(j)))
+         laws(few(j))%shift = 0.0_wp
+      end do
+
+   contains
+
+      !> The force of the exact law of element I at MOVEMENT.
+      function force_on(i, movement) result(force)
+         integer, intent(in)  :: i
+         real(wp), intent(in) :: movement(3)
+         real(wp) :: force(3), tangent(3, 3)
+         type(element_state) :: state
+
+         associate (element => model%joints%element(i))
+            call follow_law(model%joints%list(element%joint)%law, element%area, attempt, i, analysis%states(i), movement, state, &
+                            tangent)
+            force = force_of(element%area, state)
+         end associate
+      end function force_on
+
+   end subroutine eliminate_few
+
+   !> Replace the columns U of forces by the displacements under the stiffness of the last direction.
+   subroutine solve(model, system, held, attempt, u)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      logical, intent(in)                   :: held(:, :)
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: u(:, :, :) !! (dimension, retained, columns) [force] on entry, [length] on return
+      real(wp) :: force(size(u, 1), size(u, 2))
+      integer  :: i
+
+      if (attempt%coupled) then
+         call solve_coupled_columns(loose_direction, system, u)
+         return
+      end if
+      do i = 1, size(u, 3)
+         force = merge(0.0_wp, u(:, :, i), held)
+         call solve_equations(model, system, force, u(:, :, i), attempt%trouble, digits=direction_digits)
+      end do
+   end subroutine solve
+
+   !> The movements X of the elements FEW with x = REACHED + C (s(x) - f(x)), s the straight force, which is STRAIGHT at REACHED.
+   subroutine solve_few(model, analysis, attempt, few, laws, reached, straight, c, x, solved)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(attempt_type), intent(in)  :: attempt
+      integer, intent(in)             :: few(:)
+      type(straight_law), intent(in)  :: laws(:)
+      real(wp), intent(in)            :: reached(:, :)  !! (3, few) [length]
+      real(wp), intent(in)            :: straight(:, :) !! likewise [force]
+      real(wp), intent(in)            :: c(:, :)        !! (3 few, 3 few) [length/force]
+      real(wp), intent(inout)         :: x(:, :)        !! (3, few) [length]
+      logical, intent(out)            :: solved
+      real(wp) :: left(3*size(few)), next_left(3*size(few)), step(3*size(few)), matrix(3*size(few), 3*size(few))
+      real(wp) :: tangents(3, 3, size(few)), there(3, size(few)), alpha, scale
+      integer  :: info, i, j, pivots(3*size(few))
+
+      solved = .false.
+      scale = norm2(reached)
+      call find_left(x, left, tangents)
+      do i = 1, most_steps
+         solved = norm2(left) <= on_the_graph*scale
+         if (solved) return
+         matrix = 0.0_wp
+         do j = 1, size(few)
+            matrix(:, 3*j - 2:3*j) = -matmul(c(:, 3*j - 2:3*j), laws(few(j))%tangent - tangents(:, :, j))
+         end do
+         do j = 1, size(left)
+            matrix(j, j) = matrix(j, j) + 1.0_wp
+         end do
+         step = -left
+         call dgesv(size(left), 1, matrix, size(left), pivots, step, size(left), info)
+         if (info /= 0) return
+         alpha = 1.0_wp
+         do
+            there = x + alpha*reshape(step, shape(x))
+            call find_left(there, next_left, tangents)
+            if (norm2(next_left) <= (1.0_wp - 0.1_wp*alpha)*norm2(left)) exit
+            if (alpha <= shortest_step) return
+            alpha = 0.5_wp*alpha
+         end do
+         x = there
+         left = next_left
+      end do
+
+   contains
+
+      !> LEFT = x - REACHED - C (s(x) - f(x)) at the movements Y, and the exact TANGENTS there.
+      subroutine find_left(y, left, tangents)
+         real(wp), intent(in)  :: y(:, :)
+         real(wp), intent(out) :: left(:), tangents(:, :, :)
+         type(element_state) :: state
+         real(wp) :: difference(3, size(few))
+         integer  :: k
+
+         do k = 1, size(few)
+            associate (element => model%joints%element(few(k)))
+               call follow_law(model%joints%list(element%joint)%law, element%area, attempt, few(k), analysis%states(few(k)), &
+                               y(:, k), state, tangents(:, :, k))
+               difference(:, k) = straight(:, k) + matmul(laws(few(k))%tangent, y(:, k) - reached(:, k)) - &
+                                  force_of(element%area, state)
+            end associate
+         end do
+         left = reshape(y - reached, [size(left)]) - matmul(c, reshape(difference, [size(left)]))
+      end subroutine find_left
+
+   end subroutine solve_few
+
+end module nonlinear_elimination
