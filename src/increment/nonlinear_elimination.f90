@@ -6,7 +6,7 @@
 !!
 !!      x = w + C (s(x) - f(x))
 !!
-!! is solved by Newton's method with steps that are halved until what is left of these equations falls.
+!! is solved by Newton's method. Where this does not converge, what is left of the equations is removed in parts.
 !! Source: Lanzkron, Rose, Wilkes, SIAM J. Numer. Anal. 33 (1996) 1157-1178.
 module nonlinear_elimination
    use analysis_state, only: analysis_type
@@ -19,7 +19,7 @@ module nonlinear_elimination
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, follow_law, trial_type
    use straight_laws, only: direction_digits, straight_law
-   use tolerances, only: loose_direction, on_the_graph, shortest_step
+   use tolerances, only: loose_direction, on_the_graph
    implicit none
    private
 
@@ -27,7 +27,9 @@ module nonlinear_elimination
 
    integer, parameter  :: most = 8            ! elements
    integer, parameter  :: most_dear = 8       ! of them where a solution takes long beside a factorisation
-   integer, parameter  :: most_steps = 60     ! of Newton's method
+   integer, parameter  :: most_steps = 12     ! of Newton's method
+   real(wp), parameter :: least_part = 0.5_wp**10 ! of what is left of the equations, that is removed at once
+   real(wp), parameter :: farthest = 1.0e3_wp ! times the movements: a step beyond leads nowhere
    real(wp), parameter :: share = 0.05_wp     ! of the largest difference between straight and exact force: an element that counts
    real(wp), parameter :: quick = 0.1_wp      ! of the residual: an iteration that leaves less needs no help
 
@@ -89,7 +91,7 @@ contains
          end do
          reached(:, j) = joint_movement(system%interface(few(j)), next%u)
       end do
-      x = reached
+      allocate (x, mold=reached)
       call solve_few(model, analysis, attempt, few, laws, reached, straight(:, few), c, x, solved)
       if (.not. solved) return
       allocate (corrected, source=next)
@@ -147,7 +149,8 @@ contains
       end do
    end subroutine solve
 
-   !> The movements X of the elements FEW with x = REACHED + C (s(x) - f(x)), s the straight force, which is STRAIGHT at REACHED.
+   !> The movements X of the elements FEW with x = REACHED + C (s(x) - f(x)), s the straight force, which is STRAIGHT at REACHED. What
+   !! is left of these equations at REACHED is removed at once, or in parts where Newton's method does not converge.
    subroutine solve_few(model, analysis, attempt, few, laws, reached, straight, c, x, solved)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
@@ -157,38 +160,44 @@ contains
       real(wp), intent(in)            :: reached(:, :)  !! (3, few) [length]
       real(wp), intent(in)            :: straight(:, :) !! likewise [force]
       real(wp), intent(in)            :: c(:, :)        !! (3 few, 3 few) [length/force]
-      real(wp), intent(inout)         :: x(:, :)        !! (3, few) [length]
+      real(wp), intent(out)           :: x(:, :)        !! (3, few) [length]
       logical, intent(out)            :: solved
-      real(wp) :: left(3*size(few)), next_left(3*size(few)), step(3*size(few)), matrix(3*size(few), 3*size(few))
-      real(wp) :: tangents(3, 3, size(few)), there(3, size(few)), alpha, scale
-      integer  :: info, i, j, pivots(3*size(few))
+      real(wp) :: first(3*size(few)), left(3*size(few)), matrix(3*size(few), 3*size(few)), tangents(3, 3, size(few))
+      real(wp) :: there(3, size(few)), part, remains
+      integer  :: info, i, j, n, pivots(3*size(few))
 
-      solved = .false.
-      scale = norm2(reached)
-      call find_left(x, left, tangents)
-      do i = 1, most_steps
-         solved = norm2(left) <= on_the_graph*scale
-         if (solved) return
-         matrix = 0.0_wp
-         do j = 1, size(few)
-            matrix(:, 3*j - 2:3*j) = -matmul(c(:, 3*j - 2:3*j), laws(few(j))%tangent - tangents(:, :, j))
+      n = size(left)
+      x = reached
+      call find_left(x, first, tangents)
+      remains = 1.0_wp
+      part = 1.0_wp
+      do while (remains > 0.0_wp)
+         there = x
+         do i = 1, most_steps
+            call find_left(there, left, tangents)
+            left = left - max(0.0_wp, remains - part)*first
+            solved = norm2(left) <= on_the_graph*norm2(first)
+            if (solved) exit
+            matrix = 0.0_wp
+            do j = 1, size(few)
+               matrix(:, 3*j - 2:3*j) = -matmul(c(:, 3*j - 2:3*j), laws(few(j))%tangent - tangents(:, :, j))
+            end do
+            do j = 1, n
+               matrix(j, j) = matrix(j, j) + 1.0_wp
+            end do
+            call dgesv(n, 1, matrix, n, pivots, left, n, info)
+            if (info /= 0) exit
+            if (.not. norm2(left) < farthest*(norm2(reached) + norm2(first))) exit
+            there = there - reshape(left, shape(x))
          end do
-         do j = 1, size(left)
-            matrix(j, j) = matrix(j, j) + 1.0_wp
-         end do
-         step = -left
-         call dgesv(size(left), 1, matrix, size(left), pivots, step, size(left), info)
-         if (info /= 0) return
-         alpha = 1.0_wp
-         do
-            there = x + alpha*reshape(step, shape(x))
-            call find_left(there, next_left, tangents)
-            if (norm2(next_left) <= (1.0_wp - 0.1_wp*alpha)*norm2(left)) exit
-            if (alpha <= shortest_step) return
-            alpha = 0.5_wp*alpha
-         end do
-         x = there
-         left = next_left
+         if (solved) then
+            x = there
+            remains = max(0.0_wp, remains - part)
+            part = 2.0_wp*part
+         else
+            part = 0.5_wp*min(part, remains)
+            if (part < least_part) return
+         end if
       end do
 
    contains

@@ -10,7 +10,6 @@ module way_points
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate_at, trial_type
-   use normal_stiffness, only: normal_state
    use tolerances, only: dependent_product, loose_direction, on_the_path, rough_direction
    implicit none
    private
@@ -19,7 +18,6 @@ module way_points
    public :: approach ! for runs beside another one
 
    integer, parameter :: most_corrections = 8
-   real(wp), parameter :: settled = 0.05_wp ! of PATHTOL: a change of lambda and p that a path which is only measured does not show
 
 contains
 
@@ -83,9 +81,7 @@ contains
       real(wp) :: steps(size(u, 1), size(u, 2), most_corrections), gains(size(u, 1), size(u, 2), most_corrections)
       real(wp) :: direction(size(u, 1), size(u, 2)), left(size(u, 1), size(u, 2)), share
       integer  :: first, i, k
-      logical  :: is_settled
 
-      is_settled = .false.
       allocate (goal, source=attempt%load)
       attempt%load = load
       call exchange_states(before, analysis%states)
@@ -94,7 +90,7 @@ contains
       last = trial
       first = 1
       do i = 1, most_corrections
-         if (trial%size <= enough .or. attempt%iteration == 0 .or. is_settled) exit
+         if (trial%size <= enough .or. attempt%iteration == 0) exit
          left = merge(0.0_wp, last%residual, analysis%held)
          steps(:, :, i) = 0.0_wp
          do k = first, i - 1
@@ -122,22 +118,12 @@ contains
          else
             first = i + 1 ! the corrections before have all directions that there are, as in a joint of one element: without them
          end if
-         if (.not. analysis%record%follows_path) is_settled = change_of(last%states%normal, next%states%normal) <= &
-                                                              settled*analysis%path_tolerance
          last = next
          if (last%size < trial%size) trial = last
       end do
       call exchange_states(before, analysis%states)
       call move_alloc(goal, attempt%load)
    end subroutine approach
-
-   !> The change of lambda or p between the states A and B, root mean square, of the largest one.
-   pure real(wp) function change_of(a, b)
-      type(normal_state), intent(in) :: a(:), b(:)
-
-      change_of = max(norm2(b%lambda - a%lambda)/max(maxval(b%lambda), tiny(1.0_wp)), &
-                      norm2(b%pressure - a%pressure)/max(maxval(b%pressure), tiny(1.0_wp)))/sqrt(real(size(b), wp))
-   end function change_of
 
    subroutine exchange_states(a, b)
       type(element_state), allocatable, intent(inout) :: a(:), b(:)
