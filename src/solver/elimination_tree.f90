@@ -108,30 +108,70 @@ contains
       sequence = sequence(:n)
    end subroutine number_depth_first
 
-   !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has an entry in column j where j lies on the path up
-   !! the tree from a neighbour of i to i.
+   !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has entries in the columns on the paths up the tree from its
+   !! neighbours before i to i. These paths form a subtree. A column has as many rows as subtrees begin below it, less those that meet
+   !! or end there: of every subtree only its leaves, and where the paths of two leaves one after the other meet, are looked at.
+   !! Source: Gilbert, Ng, Peyton, SIAM J. Matrix Anal. Appl. 15 (1994) 1075-1091.
    subroutine count_rows(graph, order, place, parent, beyond)
       type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: order(:), place(:), parent(:)
+      integer, intent(in)               :: order(:), place(:), parent(:) !! depth first
       integer, allocatable, intent(out) :: beyond(:)
-      integer, allocatable :: mark(:)
-      integer :: i, j, k, n
+      integer :: first(size(parent))    ! descendant
+      integer :: ancestor(size(parent)) ! of columns done, towards the root
+      integer :: last_first(size(order)), last_leaf(size(order)) ! first descendant of the last leaf of every row, and this leaf
+      integer :: at, i, j, k, n
 
       n = size(parent)
-      allocate (beyond(n), mark(n), source=0)
-      do i = 1, size(order)
-         if (i <= n) mark(i) = i
-         do k = graph%first(order(i)), graph%first(order(i) + 1) - 1
-            j = place(graph%neighbours(k))
-            if (j == 0 .or. j >= i .or. j > n) cycle
-            do while (mark(j) /= i)
-               mark(j) = i
-               beyond(j) = beyond(j) + 1
-               j = parent(j)
-               if (j == 0 .or. j > n) exit
-            end do
-         end do
+      first = [(j, j = 1, n)]
+      ancestor = first
+      last_first = 0
+      last_leaf = 0
+      allocate (beyond(n), source=1)
+      do j = 1, n
+         if (parent(j) == 0 .or. parent(j) > n) cycle
+         first(parent(j)) = min(first(parent(j)), first(j))
+         beyond(parent(j)) = 0
       end do
+      do j = 1, n
+         do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
+            i = place(graph%neighbours(k))
+            if (i <= j .or. first(j) <= last_first(max(1, i))) cycle ! no leaf
+            beyond(j) = beyond(j) + 1
+            if (last_leaf(i) > 0) then
+               at = meeting(last_leaf(i))
+               if (at >= j) beyond(at) = beyond(at) - 1 ! below j: the root of another tree, left by a row behind all columns
+            end if
+            last_first(i) = first(j)
+            last_leaf(i) = j
+         end do
+         if (parent(j) == 0 .or. parent(j) > n) cycle
+         beyond(parent(j)) = beyond(parent(j)) - 1 ! row j ends
+         ancestor(j) = parent(j)
+      end do
+      do j = 1, n
+         if (.not. (parent(j) == 0 .or. parent(j) > n)) beyond(parent(j)) = beyond(parent(j)) + beyond(j)
+      end do
+      beyond = beyond - 1
+
+   contains
+
+      !> Where the path of LEAF meets that of column J.
+      integer function meeting(leaf)
+         integer, intent(in) :: leaf
+         integer :: at, next
+
+         meeting = leaf
+         do while (ancestor(meeting) /= meeting)
+            meeting = ancestor(meeting)
+         end do
+         at = leaf
+         do while (ancestor(at) /= meeting .and. at /= meeting)
+            next = ancestor(at)
+            ancestor(at) = meeting ! path compression
+            at = next
+         end do
+      end function meeting
+
    end subroutine count_rows
 
    !> Gather columns with the same rows into supernodes, and count their unknowns. All columns beyond those of PARENT form one more
