@@ -1,6 +1,6 @@
 !> The iterations of METHOD = NEWTON from a committed state, or from a guess, to equilibrium. An iteration takes full steps under
 !! the tangents of straight_laws: the first one with new tangents, then corrections with these tangents while they pay. Under given
-!! limits of friction a line search follows the direction of an iteration.
+!! limits of friction a line search follows the direction of an iteration, and from a guess that of a first step that leads far off.
 module newton_iterations
    use analysis_state, only: analysis_type, force_noise, free_norm, iteration_record, record_iteration
    use coupled_equations, only: solve_coupled_again
@@ -31,6 +31,7 @@ module newton_iterations
    real(wp), parameter :: near = 10.0_wp               ! times the tolerance: rounding that is allowed where no iteration falls
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
+   real(wp), parameter :: far_off = 10.0_wp            ! times the residual of a guess: its first step is searched
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
@@ -98,8 +99,13 @@ contains
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
-         if (attempt%iteration > 0 .and. .not. (moves .or. attempt%with_limits)) &
-            call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
+         if (.not. (moves .or. attempt%with_limits)) then
+            if (attempt%iteration > 0) then
+               call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
+            else if (guessed .and. next%size > far_off*now%size) then ! its laws are the tangents at NOW
+               call search(model, system, attempt, analysis, now, direction, next)
+            end if
+         end if
          attempt%gain = 1.0_wp
          if (.not. (moves .or. allocated(attempt%seen))) call correct(model, system, analysis, attempt, now, next)
          call note_iteration(now, next, analysis, attempt)

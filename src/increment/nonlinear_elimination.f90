@@ -72,7 +72,7 @@ contains
          straight(:, i) = at_now(:, i) + matmul(laws(i)%tangent, joint_movement(system%interface(i), next%u - now%u))
          less(i) = norm2(straight(:, i) - force_of(model%joints%element(i)%area, next%states(i)))
       end do
-      few = pack([(i, i = 1, size(laws))], less > share*maxval(less))
+      allocate (few, source=pack([(i, i = 1, size(laws))], less > share*maxval(less)))
       if (size(few) > merge(most_dear, most, system%coupled%price > 0)) return
       allocate (z(size(next%u, 1), size(next%u, 2), 3*size(few)), source=0.0_wp)
       allocate (c(3*size(few), 3*size(few)), reached(3, size(few)))
