@@ -26,7 +26,6 @@ module nonlinear_elimination
    public :: forces_at, eliminate_few
 
    integer, parameter  :: most = 8            ! elements
-   integer, parameter  :: most_dear = 8       ! of them where a solution takes long beside a factorisation
    integer, parameter  :: most_steps = 12     ! of Newton's method
    real(wp), parameter :: least_part = 0.5_wp**10 ! of what is left of the equations, that is removed at once
    real(wp), parameter :: farthest = 1.0e3_wp ! times the movements: a step beyond leads nowhere
@@ -62,8 +61,8 @@ contains
       type(trial_type), allocatable, intent(inout) :: next
       type(trial_type), allocatable :: corrected
       integer, allocatable  :: few(:)
-      real(wp), allocatable :: c(:, :), reached(:, :), x(:, :), z(:, :, :)
-      real(wp) :: straight(3, size(laws)), less(size(laws)), of_law(3)
+      real(wp), allocatable :: c(:, :), difference(:, :), reached(:, :), u(:, :), z(:, :, :)
+      real(wp) :: straight(3, size(laws)), less(size(laws)), unit(3)
       logical  :: solved
       integer  :: axis, i, j, k
 
@@ -73,14 +72,14 @@ contains
          less(i) = norm2(straight(:, i) - force_of(model%joints%element(i)%area, next%states(i)))
       end do
       allocate (few, source=pack([(i, i = 1, size(laws))], less > share*maxval(less)))
-      if (size(few) > merge(most_dear, most, system%coupled%price > 0)) return
+      if (size(few) == 0 .or. size(few) > most) return
       allocate (z(size(next%u, 1), size(next%u, 2), 3*size(few)), source=0.0_wp)
       allocate (c(3*size(few), 3*size(few)), reached(3, size(few)))
       do j = 1, size(few)
          do axis = 1, 3
-            of_law = 0.0_wp
-            of_law(axis) = 1.0_wp
-            call add_force(system%interface(few(j)), of_law, z(:, :, 3*(j - 1) + axis))
+            unit = 0.0_wp
+            unit(axis) = 1.0_wp
+            call add_force(system%interface(few(j)), unit, z(:, :, 3*(j - 1) + axis))
          end do
       end do
       call solve(model, system, analysis%held, attempt, z)
@@ -91,18 +90,17 @@ contains
          end do
          reached(:, j) = joint_movement(system%interface(few(j)), next%u)
       end do
-      allocate (x, mold=reached)
-      call solve_few(model, analysis, attempt, few, laws, reached, straight(:, few), c, x, solved)
+      allocate (difference, mold=reached)
+      call solve_few(model, analysis, attempt, few, laws, reached, straight(:, few), c, difference, solved)
       if (.not. solved) return
-      allocate (corrected, source=next)
-      corrected%u = next%u
+      allocate (u, source=next%u)
       do j = 1, size(few)
-         of_law = straight(:, few(j)) + matmul(laws(few(j))%tangent, x(:, j) - reached(:, j)) - force_on(few(j), x(:, j))
          do axis = 1, 3
-            corrected%u = corrected%u + of_law(axis)*z(:, :, 3*(j - 1) + axis)
+            u = u + difference(axis, j)*z(:, :, 3*(j - 1) + axis)
          end do
       end do
-      call evaluate_at(model, system, attempt, analysis, corrected%u, corrected)
+      allocate (corrected, source=next)
+      call evaluate_at(model, system, attempt, analysis, u, corrected)
       if (.not. corrected%size < next%size) return
       call move_alloc(corrected, next)
       do j = 1, size(few)
@@ -110,23 +108,6 @@ contains
          laws(few(j))%force = force_of(model%joints%element(few(j))%area, next%states(few(j)))
          laws(few(j))%shift = 0.0_wp
       end do
-
-   contains
-
-      !> The force of the exact law of element I at MOVEMENT.
-      function force_on(i, movement) result(force)
-         integer, intent(in)  :: i
-         real(wp), intent(in) :: movement(3)
-         real(wp) :: force(3), tangent(3, 3)
-         type(element_state) :: state
-
-         associate (element => model%joints%element(i))
-            call follow_law(model%joints%list(element%joint)%law, element%area, attempt, i, analysis%states(i), movement, state, &
-                            tangent)
-            force = force_of(element%area, state)
-         end associate
-      end function force_on
-
    end subroutine eliminate_few
 
    !> Replace the columns U of forces by the displacements under the stiffness of the last direction.
@@ -149,9 +130,10 @@ contains
       end do
    end subroutine solve
 
-   !> The movements X of the elements FEW with x = REACHED + C (s(x) - f(x)), s the straight force, which is STRAIGHT at REACHED. What
-   !! is left of these equations at REACHED is removed at once, or in parts where Newton's method does not converge.
-   subroutine solve_few(model, analysis, attempt, few, laws, reached, straight, c, x, solved)
+   !> The DIFFERENCE s(x) - f(x) at the movements x of the elements FEW with x = REACHED + C (s(x) - f(x)), s the straight force, which
+   !! is STRAIGHT at REACHED. What is left of these equations at REACHED is removed at once, or in parts where Newton's method does
+   !! not converge.
+   subroutine solve_few(model, analysis, attempt, few, laws, reached, straight, c, difference, solved)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(attempt_type), intent(in)  :: attempt
@@ -160,10 +142,10 @@ contains
       real(wp), intent(in)            :: reached(:, :)  !! (3, few) [length]
       real(wp), intent(in)            :: straight(:, :) !! likewise [force]
       real(wp), intent(in)            :: c(:, :)        !! (3 few, 3 few) [length/force]
-      real(wp), intent(out)           :: x(:, :)        !! (3, few) [length]
+      real(wp), intent(out)           :: difference(:, :) !! (3, few) [force]
       logical, intent(out)            :: solved
       real(wp) :: first(3*size(few)), left(3*size(few)), matrix(3*size(few), 3*size(few)), tangents(3, 3, size(few))
-      real(wp) :: there(3, size(few)), part, remains
+      real(wp) :: there(3, size(few)), x(3, size(few)), part, remains
       integer  :: info, i, j, n, pivots(3*size(few))
 
       n = size(left)
@@ -202,13 +184,12 @@ contains
 
    contains
 
-      !> LEFT = x - REACHED - C (s(x) - f(x)) at the movements Y, and the exact TANGENTS there.
+      !> LEFT = y - REACHED - C (s(y) - f(y)) at the movements Y, the DIFFERENCE and the exact TANGENTS there.
       subroutine find_left(y, left, tangents)
          real(wp), intent(in)  :: y(:, :)
          real(wp), intent(out) :: left(:), tangents(:, :, :)
          type(element_state) :: state
-         real(wp) :: difference(3, size(few))
-         integer  :: k
+         integer :: k
 
          do k = 1, size(few)
             associate (element => model%joints%element(few(k)))

@@ -17,7 +17,8 @@ module coupled_equations
    integer, parameter :: most_kept = 96      ! directions of earlier coupled systems and of the present one
    integer, parameter :: most_changed = 16   ! elements whose forces become directions at once, three each
    integer, parameter :: per_step = 8        ! directions whose solution at once costs as much as a step
-   integer, parameter :: most_block_steps = 10
+   integer, parameter :: most_block_steps = 10 ! of several systems at once
+   integer, parameter :: most_entries = 16000000 ! of their directions, 128 MB
    real(wp), parameter :: much = 0.1_wp      ! of the stiffness of an element, and of the largest change: one that is large
    real(wp), parameter :: grades = 5.0_wp    ! of changes: one grade is a factor of 1.2
    real(wp), parameter :: share_of_axis = 0.1_wp ! of the change in all axes: an axis in which it acts
@@ -109,14 +110,15 @@ contains
       real(wp) :: enough(size(u, 3)), left(size(u, 1), size(u, 2), size(u, 3)), new(size(u, 1), size(u, 2))
       real(wp), allocatable :: x(:, :)
       integer, allocatable  :: unfinished(:)
-      integer :: first, i, j, step
+      integer :: first, i, j, most, step
 
       held = system%held_now()
       left = merge(0.0_wp, u, spread(held, 3, size(u, 3)))
       u = 0.0_wp
       enough = [(tolerance*norm2(left(:, :, i)), i = 1, size(u, 3))]
-      call start_directions(set, size(held), most_block_steps*size(u, 3))
-      do step = 1, most_block_steps
+      most = min(most_block_steps, most_entries/(3*size(u)) + 1)
+      call start_directions(set, size(held), most*size(u, 3))
+      do step = 1, most
          unfinished = pack([(i, i = 1, size(u, 3))], [(norm2(left(:, :, i)) > enough(i), i = 1, size(u, 3))])
          if (size(unfinished) == 0) exit
          allocate (x(system%n, size(unfinished)))
