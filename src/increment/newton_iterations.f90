@@ -99,7 +99,7 @@ contains
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
-         if (.not. (moves .or. attempt%with_limits)) then
+         if (.not. (moves .or. attempt%with_limits .or. attempt%is_limited)) then ! near a limit load it takes more iterations
             if (attempt%iteration > 0) then
                call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
             else if (guessed .and. next%size > far_off*now%size) then ! its laws are the tangents at NOW
