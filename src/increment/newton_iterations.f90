@@ -9,11 +9,11 @@ module newton_iterations
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: model_type
-   use nonlinear_elimination, only: eliminate_few, forces_at
+   use nonlinear_elimination, only: eliminate_few
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
-   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, laws_at, loose_joints, next_laws, &
-                            residual_of, straight_law
+   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, forces_at, laws_at, loose_joints, &
+                            next_laws, residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
                          rounding_of_forces, shortest_step, tight_direction
    implicit none
@@ -92,14 +92,14 @@ contains
          else
             call choose_sides(model, laws)
          end if
-         residual = residual_of(system, attempt%load, now, laws)
-         attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below_tol*analysis%tolerance, system%coupled%price > 0)
          at_now = forces_at(system, now, laws)
+         residual = residual_of(system, attempt%load, now, at_now)
+         attempt%tolerance = tolerance_of(attempt%gain, now%size, far_below_tol*analysis%tolerance, system%coupled%price > 0)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
-         if (.not. (moves .or. attempt%with_limits .or. attempt%is_limited)) then ! near a limit load it takes more iterations
+         if (.not. (moves .or. attempt%with_limits .or. attempt%is_limited)) then ! near a limit load this takes longer
             if (attempt%iteration > 0) then
                call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
             else if (guessed .and. next%size > far_off*now%size) then ! its laws are the tangents at NOW

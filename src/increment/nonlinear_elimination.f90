@@ -1,6 +1,6 @@
-!> Iterations of METHOD = NEWTON that a few interface elements hold up, by jumping to and fro over a kink of their laws: these elements
-!! take their exact laws, all others their straight ones, and the small problem that remains is solved. The structure is the factor of
-!! the iteration.
+!> A few interface elements may hold up the iterations of METHOD = NEWTON, because they jump to and fro over a kink of their laws.
+!! These elements take their exact laws, all others their straight ones, and the small problem that remains is solved, with the
+!! stiffness of the iteration.
 !! With w the movements of the elements S after the iteration, s(w) the forces of their straight laws there, f those of the exact laws,
 !! and C the movements under unit forces at their ends,
 !!
@@ -23,7 +23,7 @@ module nonlinear_elimination
    implicit none
    private
 
-   public :: forces_at, eliminate_few
+   public :: eliminate_few
 
    integer, parameter  :: most = 8            ! elements
    integer, parameter  :: most_steps = 12     ! of Newton's method
@@ -33,19 +33,6 @@ module nonlinear_elimination
    real(wp), parameter :: quick = 0.1_wp      ! of the residual: an iteration that leaves less needs no help
 
 contains
-
-   !> The forces of the straight LAWS at the movements of NOW, (3, n) [force].
-   function forces_at(system, now, laws) result(force)
-      class(equation_system), intent(in) :: system
-      type(trial_type), intent(in)       :: now
-      type(straight_law), intent(in)     :: laws(:)
-      real(wp) :: force(3, size(laws))
-      integer  :: i
-
-      do i = 1, size(laws)
-         force(:, i) = laws(i)%force + matmul(laws(i)%tangent, joint_movement(system%interface(i), now%u) - laws(i)%point)
-      end do
-   end function forces_at
 
    !> Go on from NEXT, the end of a full step from NOW along straight LAWS with the forces AT_NOW, to where the few elements follow
    !! their exact laws that leave nearly all of the residual at NEXT. NEXT is not changed where there are more of them, where the
@@ -82,7 +69,7 @@ contains
             call add_force(system%interface(few(j)), unit, z(:, :, 3*(j - 1) + axis))
          end do
       end do
-      call solve(model, system, analysis%held, attempt, z)
+      call solve(model, system, attempt, z)
       if (attempt%trouble%raised) return
       do j = 1, size(few)
          do axis = 3*j - 2, 3*j
@@ -111,10 +98,9 @@ contains
    end subroutine eliminate_few
 
    !> Replace the columns U of forces by the displacements under the stiffness of the last direction.
-   subroutine solve(model, system, held, attempt, u)
+   subroutine solve(model, system, attempt, u)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
-      logical, intent(in)                   :: held(:, :)
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(inout)               :: u(:, :, :) !! (dimension, retained, columns) [force] on entry, [length] on return
       real(wp) :: force(size(u, 1), size(u, 2))
@@ -125,7 +111,7 @@ contains
          return
       end if
       do i = 1, size(u, 3)
-         force = merge(0.0_wp, u(:, :, i), held)
+         force = u(:, :, i)
          call solve_equations(model, system, force, u(:, :, i), attempt%trouble, digits=direction_digits)
       end do
    end subroutine solve

@@ -27,7 +27,7 @@ module straight_laws
    implicit none
    private
 
-   public :: first_laws, laws_at, next_laws, choose_sides, residual_of, find_direction, loose_joints, point_of_rest
+   public :: first_laws, laws_at, next_laws, choose_sides, forces_at, residual_of, find_direction, loose_joints, point_of_rest
 
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: right = 0.1_wp    !! of it: error up to which a straight law has crossed no kink
@@ -185,21 +185,31 @@ contains
       end do
    end subroutine choose_sides
 
-   !> The residual at NOW under the LOAD with the straight LAWS in place of the joints' own, on retained nodes [force].
-   function residual_of(system, load, now, laws) result(residual)
+   !> The forces of the straight LAWS at the movements of NOW, (3, n) [force].
+   function forces_at(system, now, laws) result(force)
+      class(equation_system), intent(in) :: system
+      type(trial_type), intent(in)       :: now
+      type(straight_law), intent(in)     :: laws(:)
+      real(wp) :: force(3, size(laws))
+      integer  :: i
+
+      do i = 1, size(laws)
+         force(:, i) = laws(i)%force + matmul(laws(i)%tangent, joint_movement(system%interface(i), now%u) - laws(i)%point)
+      end do
+   end function forces_at
+
+   !> The residual at NOW under the LOAD with the FORCE of the straight laws in place of the joints' own, on retained nodes [force].
+   function residual_of(system, load, now, force) result(residual)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: load(:, :)
       type(trial_type), intent(in)       :: now
-      type(straight_law), intent(in)     :: laws(:)
+      real(wp), intent(in)               :: force(:, :) !! (3, n) [force]
       real(wp), allocatable :: residual(:, :)
       integer :: i
 
       residual = load - now%body
-      do i = 1, size(laws)
-         associate (element => system%interface(i), straight => laws(i))
-            call add_force(element, -straight%force - matmul(straight%tangent, joint_movement(element, now%u) - straight%point), &
-                           residual)
-         end associate
+      do i = 1, size(force, 2)
+         call add_force(system%interface(i), -force(:, i), residual)
       end do
    end function residual_of
 
