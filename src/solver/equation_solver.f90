@@ -97,8 +97,8 @@ module equation_solver
       procedure(form_structure), deferred   :: form_structure
       procedure(multiply_vector), deferred  :: multiply
       procedure(use_of_factor), deferred    :: solve_by_factor, multiply_by_factor
-      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, solve, precondition, precondition_many, &
-                   recover, solve_many, &
+      procedure :: number_unknowns, report_fault, held_now, gather, put, condense, condensed_load, solve, precondition, &
+                   precondition_many, recover, solve_many, &
                    forget_factors, forget_past
    end type equation_system
 
@@ -166,16 +166,32 @@ contains
       self%message = message
    end subroutine raise
 
-   !> Number the free components, node after node in ORDER.
-   subroutine number_unknowns(self, model, order)
+   !> Number the free components, node after node in ORDER. A node may stand in ORDER twice: the first time for its components
+   !! with EARLY, then for the others.
+   subroutine number_unknowns(self, model, order, early)
       class(equation_system), intent(inout) :: self
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: order(:)
+      logical, intent(in), optional         :: early(:, :) !! (dimension, n_nodes)
       logical, allocatable :: is_free(:, :)
       integer :: d, i
+      integer :: first(model%mesh%n_nodes) ! place in ORDER
 
       allocate (is_free, source=.not. model%freedoms%held(:, order) .and. spread(model%freedoms%used(order), 1, &
          model%mesh%dimension))
+      if (present(early)) then
+         first = 0
+         do i = 1, size(order)
+            associate (node => order(i))
+               if (first(node) == 0) then
+                  first(node) = i
+               else
+                  is_free(:, i) = is_free(:, i) .and. .not. early(:, node)
+                  is_free(:, first(node)) = is_free(:, first(node)) .and. early(:, node)
+               end if
+            end associate
+         end do
+      end if
       self%n = count(is_free)
       self%node = pack(spread(order, 1, model%mesh%dimension), is_free)
       self%direction = pack(spread([(d, d = 1, model%mesh%dimension)], 2, size(order)), is_free)
@@ -226,8 +242,7 @@ contains
       end do
    end subroutine put
 
-   !> Condense the load F on all equations: X at the EQUATIONS is the condensed load, elsewhere the data for recover. In the
-   !! abstract type X is F.
+   !> Condense the load F on all equations: X is what recover and condensed_load need. In the abstract type X is F.
    subroutine condense(self, f, x)
       class(equation_system), intent(in) :: self
       real(wp), intent(in)               :: f(:) !! (n) [force]
@@ -235,6 +250,15 @@ contains
 
       x(self%equations) = f(self%equations)
    end subroutine condense
+
+   !> G: the condensed load at the EQUATIONS, from X of condense.
+   subroutine condensed_load(self, x, g)
+      class(equation_system), intent(in) :: self
+      real(wp), intent(in)               :: x(:) !! (n) [force]
+      real(wp), intent(inout)            :: g(:) !! (n) likewise
+
+      g(self%equations) = x(self%equations)
+   end subroutine condensed_load
 
    !> Replace the load X by the solution; zero where LOCKED. A deferred factorisation may fail here. The abstract type uses the
    !! factor.

@@ -111,11 +111,12 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! of all nodes [force]
       real(wp), intent(out)              :: g(:, :) !! of retained nodes; zero on held components
-      real(wp), allocatable :: condensed(:)
+      real(wp), allocatable :: condensed(:), x(:)
       integer :: k
 
-      allocate (condensed(system%n))
-      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], condensed)
+      allocate (condensed(system%n), x(system%n))
+      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], x)
+      call system%condensed_load(x, condensed)
       call system%put(condensed, g)
    end subroutine condense_load
 

@@ -7,6 +7,7 @@ module front_layout
    use kinds, only: wp
    use lists, only: list_owners
    use node_graph, only: node_graph_type
+   use sliding_components, only: divide_nodes
    implicit none
    private
 
@@ -14,22 +15,26 @@ module front_layout
 
    real(wp), parameter :: entry_operations = 25.0_wp      !! cost of moving one entry of a front, in operations
    integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
+   integer, parameter  :: least_sliding = 60              !! sliding components that are worth dividing nodes
    integer, parameter  :: many = 20000                    !! nodes from which on each layout has a thread of its own
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
       integer :: n = 0                          !! fronts
-      integer, allocatable :: order(:)          !! (nodes) in order of elimination
+      integer, allocatable :: order(:)          !! (nodes) in order of elimination; a divided node stands in two places
+      integer, allocatable :: unknowns(:)       !! (nodes) eliminated in each place
       integer, allocatable :: first_pivot(:)    !! (n + 1) front f eliminates order(first_pivot(f):first_pivot(f+1)-1)
       integer, allocatable :: first_row(:)      !! (n + 1) its rows beyond the pivots begin here
       integer, allocatable :: rows(:)           !! rows(first_row(f):first_row(f+1)-1), ascending places in order
       integer, allocatable :: parent(:)         !! (n) 0: none
       logical, allocatable :: is_refactored(:)  !! (n) whether a node of a joint is eliminated in its subtree
+      logical, allocatable :: is_followed(:)    !! (n) static: whether the displacements of sliding components use it
       real(wp) :: static_operations = 0.0_wp    !! of one factorisation of the static fronts
       real(wp) :: refactored_operations = 0.0_wp !! of one factorisation of the refactored fronts
       real(wp) :: factor_entries = 0.0_wp       !! entries of all panels in full
       real(wp) :: refactored_entries = 0.0_wp   !! entries of the refactored fronts, whole lower triangles
       real(wp) :: solved_entries = 0.0_wp       !! of these, entries of the factor, which a solution uses
+      real(wp) :: followed_entries = 0.0_wp     !! of the factor, which the displacements of sliding components use
       real(wp) :: kept_entries = 0.0_wp         !! lower triangles that static fronts leave to refactored fronts
       real(wp) :: peak_entries = 0.0_wp         !! peak of update matrices, subtrees one after the other
       real(wp) :: most_entries = 0.0_wp         !! peak of panels, update matrices and initial contents of refactored fronts
@@ -38,11 +43,13 @@ module front_layout
 contains
 
    !> Choose the LAYOUT with least work for FACTORISATIONS factorisations; WAY names its treatment of the joints. Layouts by
-   !! parts are tried only where joints inside cost less than joints last.
-   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
+   !! parts are tried only where joints inside cost less than joints last. SLIDING components of joint nodes, so many, need not
+   !! come last.
+   subroutine choose_layout(graph, order, weight, in_joint, sliding, factorisations, layout, way)
       type(node_graph_type), intent(in)      :: graph
       integer, intent(in)                    :: order(:), weight(:), factorisations
       logical, intent(in)                    :: in_joint(:)
+      integer, intent(in)                    :: sliding(:)   !! (graph%n)
       type(front_layout_type), intent(inout) :: layout
       character(:), allocatable, intent(out) :: way
       type(front_layout_type) :: last_and_inside(2), in_parts(size(part_nodes))
@@ -51,7 +58,11 @@ contains
 
       !$omp parallel do schedule(dynamic, 1) default(shared) if(size(order) > many)
       do i = 1, 2
-         call lay_out_fronts(graph, order, weight, in_joint, i == 1, last_and_inside(i))
+         if (i == 1 .and. sum(sliding) >= least_sliding) then
+            call lay_out_divided(graph, order, weight, in_joint, sliding, last_and_inside(i))
+         else
+            call lay_out_fronts(graph, order, weight, in_joint, i == 1, last_and_inside(i))
+         end if
       end do
       !$omp end parallel do
       way = 'LAST'
@@ -78,7 +89,8 @@ contains
       integer, intent(in)                 :: factorisations
 
       total_work = layout%static_operations &
-                   + factorisations*(layout%refactored_operations + entry_operations*layout%refactored_entries)
+                   + factorisations*(layout%refactored_operations &
+                                     + entry_operations*(layout%refactored_entries + layout%followed_entries))
    end function total_work
 
    !> Lay out the fronts of GRAPH along ORDER. With JOINTS_LAST the nodes with IN_JOINT come last, all in one front.
@@ -106,7 +118,39 @@ contains
       call merge_supernodes(supers, joints_last)
       call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence)
       call make_fronts(supers, number, sequence, layout)
+      layout%unknowns = weight(layout%order)
    end subroutine lay_out_fronts
+
+   !> Lay out the fronts with joints last, of nodes with SLIDING components only their other components.
+   subroutine lay_out_divided(graph, order, weight, in_joint, sliding, layout)
+      type(node_graph_type), intent(in)    :: graph
+      integer, intent(in)                  :: order(:), weight(:), sliding(:)
+      logical, intent(in)                  :: in_joint(:)
+      type(front_layout_type), intent(out) :: layout
+      type(node_graph_type) :: divided
+      integer, allocatable  :: node(:), all_order(:), all_weight(:)
+      logical, allocatable  :: all_in_joint(:)
+      integer :: f, p, r
+
+      all_order = order
+      all_weight = weight
+      all_in_joint = in_joint
+      call divide_nodes(graph, sliding, all_order, all_weight, all_in_joint, divided, node)
+      call lay_out_fronts(divided, all_order, all_weight, all_in_joint, .true., layout)
+      do f = 1, layout%n
+         if (layout%is_refactored(f)) cycle
+         associate (nodes => layout%order(layout%first_pivot(f):layout%first_pivot(f + 1) - 1), &
+                    rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1), parent => layout%parent(f))
+            if (any(sliding(pack(nodes, nodes <= graph%n)) > 0)) layout%is_followed(f) = .true.
+            if (.not. layout%is_followed(f)) cycle
+            p = sum(all_weight(nodes))
+            r = sum(layout%unknowns(rows))
+            layout%followed_entries = layout%followed_entries + real(p, wp)*(r + 0.5_wp*(p + 1))
+            if (parent > 0) layout%is_followed(parent) = .not. layout%is_refactored(parent)
+         end associate
+      end do
+      layout%order = node(layout%order)
+   end subroutine lay_out_divided
 
    !> In every subtree of at most LARGEST nodes move the nodes with IN_JOINT to the end of its part of ORDER. The other nodes of
    !! the subtree are condensed onto them, as in joints last for whole bodies.
@@ -169,6 +213,7 @@ contains
       p = supers%pivots(sequence)
       r = supers%beyond(sequence)
       layout%is_refactored = supers%is_refactored(sequence)
+      allocate (layout%is_followed(layout%n), source=.false.)
       work = front_operations(p, r)
       layout%static_operations = sum(work, mask=.not. layout%is_refactored)
       layout%refactored_operations = sum(work, mask=layout%is_refactored)

@@ -35,16 +35,20 @@ contains
 
    !> L y = x (UP), or L^T x = y with X known beyond, in the REFACTORED or the static fronts. UP the static fronts the loads X on
    !! all equations are condensed on the refactored ones; down, the displacements of the bodies are recovered from y in the static
-   !! fronts and the solution in the refactored ones.
-   subroutine sweep(tree, refactored, up, x)
+   !! fronts and the solution in the refactored ones, in those FOLLOWED only.
+   subroutine sweep(tree, refactored, up, x, followed)
       type(front_tree_type), intent(in) :: tree
       logical, intent(in)               :: refactored, up
       real(wp), intent(inout)           :: x(tree%n)
+      logical, intent(in), optional     :: followed        !! false: all
       real(wp), allocatable :: left(:)     ! contributions of fronts to the rows beyond
       integer, allocatable  :: waiting(:)  ! children of every front that are not done
       integer, allocatable  :: done(:)     ! marks of the fronts, 0: of no front
       integer :: f
+      logical :: all_fronts
 
+      all_fronts = .true.
+      if (present(followed)) all_fronts = .not. followed
       allocate (left(merge(tree%n_left, 0, up)), done(0:size(tree%fronts)))
       waiting = tree%fronts%n_children
       call record_phase(trim(merge('increments', 'bodies    ', refactored)))
@@ -60,9 +64,10 @@ contains
                !$omp end task
             else
                if (front%work <= task_work .and. .not. front%is_start) cycle
+               if (.not. (all_fronts .or. front%is_followed)) cycle ! nor is any front of its subtree
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1) &
                !$omp depend(in: done(merge(0, front%parent, front%is_top))) depend(out: done(f))
-               call backward_from(tree, f, x)
+               call backward_from(tree, f, all_fronts, x)
                !$omp end task
             end if
          end associate
@@ -102,16 +107,18 @@ contains
    end subroutine forward_from
 
    !> Front F, and its subtree where that is one task.
-   subroutine backward_from(tree, f, x)
+   subroutine backward_from(tree, f, all_fronts, x)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
+      logical, intent(in)               :: all_fronts !! or only those that are followed
       real(wp), intent(inout)           :: x(tree%n)
       real(wp) :: began
       integer  :: g
 
       began = task_begins()
       do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%work > task_work), -1
-         if (tree%fronts(g)%is_refactored .eqv. tree%fronts(f)%is_refactored) call backward(tree, g, x)
+         if (tree%fronts(g)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
+         if (all_fronts .or. tree%fronts(g)%is_followed) call backward(tree, g, x)
       end do
       if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
          call record_task(began, 'backward', key('<', tree%fronts(f)%parent)//key('+', f))

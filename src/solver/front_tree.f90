@@ -31,6 +31,7 @@ module front_tree
       integer :: parent = 0                       !! 0: none
       integer :: left = 0                         !! offset of its contributions to the rows beyond in a solution
       logical :: is_refactored = .false.
+      logical :: is_followed = .false.            !! in every increment displacements of its pivots are computed
       logical :: is_top = .true.                  !! the parent, if there is one, is not of the same kind, refactored or static
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
@@ -72,7 +73,7 @@ contains
    !> The tree of LAYOUT with the equations NUMBER; no matrix is formed yet.
    subroutine start_front_tree(model, number, layout, tree)
       type(model_type), intent(in)        :: model
-      integer, intent(in)                 :: number(:, :)   !! numbered along layout%order
+      integer, intent(in)                 :: number(:, :)   !! numbered along layout%order, layout%unknowns in each place
       type(front_layout_type), intent(in) :: layout
       type(front_tree_type), intent(out)  :: tree
       integer, allocatable :: first(:), weight(:), first_child(:), children(:)
@@ -80,7 +81,7 @@ contains
 
       tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
-      allocate (weight, first, source=count(number(:, layout%order) > 0, dim=1))
+      allocate (weight, first, source=layout%unknowns)
       tree%n = 0
       do k = 1, size(weight)
          first(k) = tree%n + 1
@@ -96,6 +97,7 @@ contains
             front%first = first(low)
             front%p = sum(weight(low:high))
             front%is_refactored = layout%is_refactored(f)
+            front%is_followed = layout%is_followed(f)
             front%parent = layout%parent(f)
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
@@ -156,8 +158,8 @@ contains
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       type(interface_element), allocatable :: elements(:)
-      integer, allocatable :: front(:, :), first(:), list(:)
-      integer :: e, f
+      integer, allocatable :: front(:, :), first(:), list(:), number(:, :)
+      integer :: d, e, f, i
 
       allocate (front(1, max(model%mesh%n_elements, size(model%joints%element))))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(tree%is_parallel)
@@ -170,7 +172,14 @@ contains
          tree%fronts(f)%elements = list(first(f):first(f + 1) - 1)
       end do
       call list_on_unknowns(model, elements)
-      call list_interface_equations(elements, tree%number, tree%joints)
+      allocate (number, source=tree%number) ! of refactored fronts: others are of sliding components
+      do i = 1, size(number, 2)
+         do d = 1, size(number, 1)
+            if (number(d, i) == 0) cycle
+            if (.not. tree%fronts(tree%of_equation(number(d, i)))%is_refactored) number(d, i) = 0
+         end do
+      end do
+      call list_interface_equations(elements, number, tree%joints)
       front(1, :size(elements)) = [(front_of(tree, tree%joints%rows_of(e)), e = 1, size(elements))]
       call list_owners(size(tree%fronts), front(:, :size(elements)), first, list)
       do f = 1, size(tree%fronts)

@@ -3,6 +3,11 @@
 !! joints last: the bodies are condensed onto the joints; one dense front with all joint unknowns remains;
 !! joints inside: the joint unknowns stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size the joint unknowns come last; the bodies are condensed piece by piece.
+!!
+!! Joints last, of joint nodes with sliding components t only the components n along the normals come last. Between two joint
+!! forces u_t = [G] u_n + h, h the movement under the loads where u_n = 0. The increments see one system of both:
+!!    [S] u_n = f,  d (u_t - [G] u_n) = d h
+!! with [k_b] condensed on u_n, and a stiffness d for each sliding component. [G] u_n is a back substitution in the static fronts.
 module tree_solver
    use equation_solver, only: equation_system, exact_digits, failure_type
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
@@ -16,6 +21,7 @@ module tree_solver
    use model_data, only: model_type, n_sections
    use nested_dissection, only: dissect
    use node_graph, only: list_joined, node_graph_type
+   use sliding_components, only: find_sliding
    use text_tools, only: integer_text
    use tolerances, only: step_tolerance
    implicit none
@@ -38,10 +44,15 @@ module tree_solver
       logical  :: is_laid_out = .false.
       type(front_layout_type), private :: layout  !! freed by start
       logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
+      logical, allocatable, private :: slides(:, :) !! (dimension, n_nodes) sliding components
+      integer, allocatable, private :: sliding(:) !! equations of these in static fronts
+      real(wp), allocatable, private :: d(:)      !! of the same [force/length]
    contains
-      procedure :: lay_out, start, form_bodies, add_to_bodies, condense, form_structure, solve, multiply, recover
+      procedure :: lay_out, start, form_bodies, add_to_bodies, condense, condensed_load, form_structure, solve, multiply, recover
       procedure :: forget_factors, forget_past, precondition, precondition_many, solve_by_factor, solve_many, multiply_by_factor
    end type tree_solver_type
+
+   real(wp), parameter :: sliding_share = 1.0e-4_wp ! of the diagonal entry: d, whose forces are small beside those of the joints
 
 contains
 
@@ -60,7 +71,10 @@ contains
       allocate (self%in_joint(model%mesh%n_nodes), source=.false.)
       self%in_joint(pack(joined, joined > 0)) = .true.
       if (n_sections(model%mesh) > 0) self%in_joint(model%mesh%sections%node) = .true.
-      call choose_layout(graph, order, weight, self%in_joint, self%factorisations, self%layout, self%way)
+      self%slides = find_sliding(model, joined)
+      if (graph%with_masses) self%slides = .false.
+      call choose_layout(graph, order, weight, self%in_joint, merge(count(self%slides, dim=1), 0, weight > 0), &
+                         self%factorisations, self%layout, self%way)
       ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh
       self%bytes = 8.0_wp*self%layout%most_entries + 16.0_wp*(0.5_wp*model%mesh%dimension*3**model%mesh%dimension*sum(weight))
       self%description%static_operations = self%layout%static_operations
@@ -82,19 +96,20 @@ contains
          return
       end if
       associate (layout => self%layout, description => self%description)
-         call self%number_unknowns(model, layout%order)
+         call self%number_unknowns(model, layout%order, early=self%slides)
          call check_memory(self%n, model%mesh%dimension, self%bytes, failure)
          if (failure%raised) return
          call start_front_tree(model, self%number, layout, self%fronts)
          self%factor%reuse%most_steps = price_in_steps(layout%refactored_operations, layout%refactored_entries)
          self%coupled%price = price_in_steps(layout%refactored_operations, layout%solved_entries)
-         self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
          description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
-         description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
+         description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%fronts%equations, kind=long)]
       end associate
       self%layout = none
-      self%in_joint(self%node(self%equations)) = .true.
+      self%in_joint(self%node(self%fronts%equations)) = .true.
+      self%equations = pack([(i, i = 1, self%n)], self%in_joint(self%node))
+      self%sliding = pack(self%equations, .not. self%fronts%fronts(self%fronts%of_equation(self%equations))%is_refactored)
       self%retained = pack([(i, i = 1, model%mesh%n_nodes)], self%in_joint)
    end subroutine start
 
@@ -110,7 +125,7 @@ contains
       self%description%assembly_time = self%fronts%assembly_time
       if (fault /= 0) return
       self%diagonal = self%fronts%diagonal
-      self%diagonal(self%equations) = 0.0_wp
+      self%diagonal(self%fronts%equations) = 0.0_wp
       do k = 1, size(self%fronts%refactored)
          associate (front => self%fronts%fronts(self%fronts%refactored(k)), diagonal => self%diagonal)
             associate (pivots => diagonal(front%first:front%first + front%p - 1))
@@ -120,6 +135,7 @@ contains
          end associate
       end do
       self%stiffest = maxval(self%diagonal)
+      self%d = sliding_share*self%diagonal(self%sliding)
    end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)
@@ -130,7 +146,7 @@ contains
       call add_to_refactored(self%fronts, rows, k)
    end subroutine add_to_bodies
 
-   !> Condense F on the refactored fronts; at the other equations L y = f, for recover.
+   !> Condense F on the refactored fronts; at the other equations L y = f, for recover and condensed_load.
    subroutine condense(self, f, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: f(:)
@@ -139,6 +155,35 @@ contains
       x = f
       call sweep(self%fronts, refactored=.false., up=.true., x=x)
    end subroutine condense
+
+   !> Of sliding components d h.
+   subroutine condensed_load(self, x, g)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), intent(in)                :: x(:)
+      real(wp), intent(inout)             :: g(:)
+      real(wp) :: h(self%n)
+
+      g(self%fronts%equations) = x(self%fronts%equations)
+      if (size(self%sliding) == 0) return
+      h = x
+      h(self%fronts%equations) = 0.0_wp
+      call sweep(self%fronts, refactored=.false., up=.false., x=h, followed=.true.)
+      g(self%sliding) = self%d*h(self%sliding)
+   end subroutine condensed_load
+
+   !> [G] U at the sliding components, U at the equations of the refactored fronts.
+   function following(self, u) result(u_t)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), intent(in)                :: u(:)
+      real(wp) :: u_t(size(self%sliding))
+      real(wp), allocatable :: x(:)
+
+      if (size(self%sliding) == 0) return
+      allocate (x(self%n), source=0.0_wp)
+      x(self%fronts%equations) = u(self%fronts%equations)
+      call sweep(self%fronts, refactored=.false., up=.false., x=x, followed=.true.)
+      u_t = x(self%sliding)
+   end function following
 
    !> Refactor the fronts with the present joint stiffness, unless an earlier factor serves.
    subroutine form_structure(self, fault)
@@ -170,7 +215,7 @@ contains
          self%weakest = minval(fronts%weakest)
          if (self%shift > 0.0_wp) self%n_negative = sum([(size(fronts(f)%negative), f = 1, size(fronts))])
       end associate
-      self%diagonal(self%equations) = self%fronts%diagonal(self%equations)
+      self%diagonal(self%fronts%equations) = self%fronts%diagonal(self%fronts%equations)
       self%factor%k_int = self%k_int
       call note_factor(self%factor%reuse)
    end subroutine factorise
@@ -181,12 +226,13 @@ contains
       real(wp), contiguous, intent(inout)    :: x(:)
       integer, intent(out)                   :: fault
       real(wp), allocatable :: residual(:)
-      real(wp) :: b(size(self%equations)), tolerance, work
+      real(wp) :: b(size(self%fronts%equations)), h(size(self%sliding)), tolerance, work
       integer  :: steps
       logical  :: found
 
       fault = 0
-      b = x(self%equations)
+      b = x(self%fronts%equations)
+      h = x(self%sliding)/self%d
       found = .false.
       if (.not. self%factor%is_own) then
          allocate (residual(self%n))
@@ -196,7 +242,7 @@ contains
             if (self%options%digits < exact_digits) tolerance = 0.1_wp**self%options%digits
             call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, tolerance, most_steps, residual, x, steps)
             found = steps <= most_steps
-            if (found .and. tolerance > step_tolerance) b = b - residual(self%equations) ! the load that X balances
+            if (found .and. tolerance > step_tolerance) b = b - residual(self%fronts%equations) ! the load that X balances
             if (found) call note_steps(factor%reuse, steps)
             if (.not. found) call note_failure(factor%reuse)
          end associate
@@ -204,10 +250,11 @@ contains
          if (fault /= 0) return
       end if
       if (.not. found) then
-         x(self%equations) = b
+         x(self%fronts%equations) = b
          x(self%locked) = 0.0_wp
          call solve_refactored(self%fronts, x)
       end if
+      x(self%sliding) = h + following(self, x)
       if (self%factor%is_awaited) call note_solution(self%fronts, self%k_int, b, x, self%factor%earlier)
       self%factor%is_awaited = .false.
    end subroutine solve
@@ -237,15 +284,16 @@ contains
       real(wp), intent(inout)             :: y(:)
 
       call refactored_times_vector(self%fronts, x, y)
+      y(self%sliding) = self%d*(x(self%sliding) - following(self, x))
    end subroutine multiply
 
-   !> L^T x = y in the static fronts.
+   !> L^T x = y in the static fronts, which gives the sliding components again.
    subroutine recover(self, u, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: u(:)
       real(wp), intent(inout)             :: x(:)
 
-      x(self%equations) = u(self%equations)
+      x(self%fronts%equations) = u(self%fronts%equations)
       call sweep(self%fronts, refactored=.false., up=.false., x=x)
    end subroutine recover
 
@@ -255,6 +303,7 @@ contains
 
       x(self%locked) = 0.0_wp
       call solve_refactored(self%fronts, x)
+      x(self%sliding) = x(self%sliding)/self%d + following(self, x)
    end subroutine precondition
 
    subroutine solve_by_factor(self, x)
@@ -277,8 +326,13 @@ contains
    subroutine precondition_many(self, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), contiguous, intent(inout) :: x(:, :)
+      integer :: i
 
       call solve_columns(self%fronts, refactored=.true., x=x)
+      if (size(self%sliding) == 0) return
+      do i = 1, size(x, 2)
+         x(self%sliding, i) = x(self%sliding, i)/self%d + following(self, x(:, i))
+      end do
    end subroutine precondition_many
 
    subroutine multiply_by_factor(self, x)
