@@ -177,7 +177,7 @@ contains
    end subroutine measure
 
    !> What each of SIDES sees.
-   pure subroutine find_facing(mesh, sides)
+   subroutine find_facing(mesh, sides)
       type(mesh_type), intent(in) :: mesh
       type(outer_side), intent(inout) :: sides(:)
       type(spatial_search_type) :: search

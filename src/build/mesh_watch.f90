@@ -17,6 +17,7 @@ module mesh_watch
    public :: repeated_words, crack_words
 
    integer, parameter  :: most_named = 3         ! pairs that a warning names
+   integer, parameter  :: many = 2000            ! nodes from which on several threads search
 
 contains
 
@@ -108,25 +109,33 @@ contains
       type(spatial_search_type) :: search
       character(:), allocatable :: named
       integer, allocatable  :: assembly(:), body(:), found(:), nodes(:), parent(:)
+      logical, allocatable  :: has_near(:) ! also where the other node is connected
       real(wp), allocatable :: reach(:)
       integer :: i, k, n, n_found
 
       nodes = pack([(i, i = 1, n_points(mesh))], [(may_part(mesh, freedoms, i), i = 1, n_points(mesh))])
       call find_reach(mesh, reach)
       call search%build(mesh%x(:, nodes))
-      allocate (found(16), parent(0))
+      allocate (has_near(size(nodes)), parent(0))
+      !$omp parallel default(shared) private(found, n_found) if(size(nodes) > many)
+      allocate (found(16))
+      !$omp do schedule(dynamic, 512)
+      do i = 1, size(nodes)
+         call find_near(i, found, n_found)
+         has_near(i) = n_found > 1
+      end do
+      !$omp end do
+      !$omp end parallel
       n = 0
       named = ''
+      allocate (found(16))
       do i = 1, size(nodes)
-         associate (x => mesh%x(:, nodes(i)), r => reach(nodes(i)))
-            call search%list_meeting(x - r, x + r, found, n_found)
-         end associate
-         if (n_found < 2) cycle
+         if (.not. has_near(i)) cycle
+         call find_near(i, found, n_found)
          if (size(parent) == 0) then
             call find_connections(mesh, joints, freedoms, parent)
             call find_assemblies(mesh, joints, body, assembly)
          end if
-         found(:n_found) = nodes(found(:n_found))
          do k = 1, n_found ! a pair counts at its second node
             if (found(k) < nodes(i) .and. .not. share(parent, found(k), nodes(i)) .and. &
                 (share(body, found(k), nodes(i)) .or. .not. share(assembly, found(k), nodes(i)))) exit
@@ -139,6 +148,21 @@ contains
       if (n > 0) words = plural(n, 'node')//one_of(n == 1, ' lies', ' lie')//' at the place of another one, and no '// &
          'joint, rigid element, MPC, bar or spring connects them:'//named// &
          ': the bodies come apart there; merge these nodes or give a JOINT'
+
+   contains
+
+      !> The nodes FOUND(:N) within reach of the I-th of NODES, itself among them.
+      subroutine find_near(i, found, n)
+         integer, intent(in)                 :: i
+         integer, allocatable, intent(inout) :: found(:)
+         integer, intent(out)                :: n
+
+         associate (x => mesh%x(:, nodes(i)), r => reach(nodes(i)))
+            call search%list_meeting(x - r, x + r, found, n)
+         end associate
+         found(:n) = nodes(found(:n))
+      end subroutine find_near
+
    end function crack_words
 
    !> Whether NODE belongs to an element and is free to part from another one.

@@ -258,7 +258,7 @@ contains
    end subroutine shares_facing
 
    !> The shortest distance between two lists of nodes [length].
-   pure real(wp) function shortest_distance(mesh, nodes, others) result(shortest)
+   real(wp) function shortest_distance(mesh, nodes, others) result(shortest)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: nodes(:), others(:)
       type(spatial_search_type) :: search

@@ -21,11 +21,12 @@ module spatial_search
    end type spatial_search_type
 
    integer, parameter :: first_undivided = 8 ! sections of at most this length are not divided
+   integer, parameter :: many = 4096         ! length from which on a section is a task
 
 contains
 
    !> Build the tree of the boxes from LOW(3, n) to HIGH(3, n), or of the points LOW.
-   pure subroutine build(self, low, high)
+   subroutine build(self, low, high)
       class(spatial_search_type), intent(inout) :: self
       real(wp), intent(in)           :: low(:, :)
       real(wp), intent(in), optional :: high(:, :)
@@ -39,7 +40,11 @@ contains
       if (present(high)) boxes(:, 2, :) = high
       allocate (centres, source=0.5_wp*(boxes(:, 1, :) + boxes(:, 2, :)))
       self%number = [(i, i = 1, size(centres, 2))]
+      !$omp parallel default(shared) if(size(self%number) > many)
+      !$omp single
       call divide(centres, self%number)
+      !$omp end single
+      !$omp end parallel
       self%box = boxes(:, :, self%number)
       self%around = self%box
       if (size(self%number) > 0) call surround(self, 1, size(self%number), whole)
@@ -48,7 +53,7 @@ contains
    !> Sort a section of POINTS, with their NUMBERs, into the order of the tree: points are exchanged until none before the middle
    !! has a larger coordinate along the axis of the largest extent, and none behind it a smaller one; then each half likewise.
    !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
-   pure recursive subroutine divide(points, number)
+   recursive subroutine divide(points, number)
       real(wp), intent(inout) :: points(:, :) !! (3, n)
       integer, intent(inout)  :: number(:)    !! (n)
       real(wp) :: pivot, point(3)
@@ -83,8 +88,11 @@ contains
          if (j < middle) low = i
          if (i > middle) high = j
       end do
+      !$omp task default(shared) if(middle > many)
       call divide(points(:, :middle - 1), number(:middle - 1))
+      !$omp end task
       call divide(points(:, middle + 1:), number(middle + 1:))
+      !$omp taskwait
    end subroutine divide
 
    !> The bounding box AROUND the boxes FIRST to LAST of the tree, stored with its middle.

@@ -1,6 +1,7 @@
 !> The test of the state after an increment for values that are not finite or beyond all bounds. No such value gets into a
 !! result; the message names the first place.
 module finite_state
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use analysis_state, only: analysis_type, force_noise
    use equations, only: equation_system
    use equation_solver, only: failure_type
@@ -8,7 +9,7 @@ module finite_state
    use model_data, only: joint_node_id, model_type, n_bars
    use newton_iterations, only: idle
    use newton_method, only: no_balance
-   use numbers, only: is_measure
+   use numbers, only: is_measure, largest_measure
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    use tolerances, only: most_rounding_of_forces
@@ -79,6 +80,9 @@ contains
          integer, intent(in)      :: nodes(:)
          integer :: at(2)
 
+         if (all(ieee_is_finite(array))) then ! as fast as memory, in every increment
+            if (maxval(abs(array)) <= largest_measure) return
+         end if
          at = findloc(is_measure(array), .false.)
          if (at(1) > 0) call check(noun//' of '//unknown_name(model, nodes(at(2)), at(1)), [array(at(1), at(2))])
       end subroutine check_nodes

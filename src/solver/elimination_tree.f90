@@ -5,7 +5,6 @@
 module elimination_tree
    use front_kernel, only: touched_entries
    use kinds, only: wp
-   use lists, only: sorted_order
    use node_graph, only: node_graph_type
    implicit none
    private
@@ -175,16 +174,17 @@ contains
    end subroutine count_rows
 
    !> Gather columns with the same rows into supernodes, and count their unknowns. All columns beyond those of PARENT form one more
-   !! supernode. A supernode with a node IN_JOINT in its subtree is refactored.
+   !! supernode. A supernode with a node IN_JOINT in its subtree is refactored. Row after row is appended to the supernodes on the
+   !! paths up the tree from its neighbours before it: so the rows of every supernode are ascending.
    subroutine find_supernodes(graph, order, place, parent, beyond, weight, in_joint, supers)
       type(node_graph_type), intent(in)  :: graph
       integer, intent(in)                :: order(:), place(:), parent(:), beyond(:)
       integer, intent(in)                :: weight(:)   !! (graph%n) unknowns of a node
       logical, intent(in)                :: in_joint(:) !! (graph%n)
       type(supernodes_type), intent(out) :: supers
-      integer, allocatable :: mark(:), of_column(:), sequence(:)
+      integer, allocatable :: mark(:), of_column(:), next(:)
       logical, allocatable :: is_first(:)
-      integer :: c, i, j, k, last, n, n_columns, n_inner, s
+      integer :: i, j, k, n, n_columns, n_inner, s
 
       n_columns = size(parent)
       allocate (is_first(n_columns + 1), source=.true.)
@@ -194,61 +194,51 @@ contains
       if (size(order) > n_columns) supers%first = [supers%first, size(order) + 1]
       n = size(supers%first) - 1
       supers%n = n
-      allocate (supers%first_row(n + 1), supers%parent(n), supers%child(n), supers%sibling(n), source=0)
-      allocate (supers%pivots(n), supers%beyond(n), supers%is_refactored(n), of_column(n_columns + 1))
-      allocate (supers%rows(sum(beyond(supers%first(2:n_inner + 1) - 1))), mark(size(order)))
-      supers%is_refactored = .false.
-      mark = 0
+      allocate (supers%first_row(n + 1), supers%parent(n), supers%child(n), supers%sibling(n), mark(n), source=0)
+      allocate (supers%pivots(n), supers%beyond(n), source=0.0_wp)
+      allocate (supers%is_refactored(n), source=.false.)
+      allocate (of_column(size(order)))
       do s = 1, n
-         of_column(supers%first(s):min(n_columns + 1, supers%first(s + 1) - 1)) = s
+         of_column(supers%first(s):supers%first(s + 1) - 1) = s
       end do
-      i = 1
+      supers%first_row(1) = 1
       do s = 1, n
-         last = supers%first(s + 1) - 1
-         supers%first_row(s) = i
-         if (s <= n_inner) then
-            do j = supers%first(s), last
-               do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
-                  call take(place(graph%neighbours(k)))
+         supers%first_row(s + 1) = supers%first_row(s)
+         if (s > n_inner) cycle
+         j = supers%first(s + 1) - 1 ! its last column
+         supers%first_row(s + 1) = supers%first_row(s) + beyond(j)
+         if (parent(j) > 0) supers%parent(s) = of_column(parent(j))
+      end do
+      allocate (supers%rows(supers%first_row(n + 1) - 1))
+      next = supers%first_row(:n)
+      do i = 1, size(order)
+         associate (own => of_column(i), rows => weight(order(i)))
+            mark(own) = i
+            do k = graph%first(order(i)), graph%first(order(i) + 1) - 1
+               j = place(graph%neighbours(k))
+               if (j == 0 .or. j >= i) cycle
+               s = of_column(j)
+               do while (mark(s) /= i)
+                  mark(s) = i
+                  supers%rows(next(s)) = i
+                  next(s) = next(s) + 1
+                  supers%beyond(s) = supers%beyond(s) + rows
+                  s = supers%parent(s)
+                  if (s == 0) exit
                end do
             end do
-         end if
-         c = supers%child(s)
-         do while (c /= 0)
-            do k = supers%first_row(c), supers%first_row(c + 1) - 1
-               call take(supers%rows(k))
-            end do
-            c = supers%sibling(c)
-         end do
-         supers%first_row(s + 1) = i
-         associate (columns => order(supers%first(s):last), rows => supers%rows(supers%first_row(s):i - 1))
-            supers%pivots(s) = sum(weight(columns))
-            supers%beyond(s) = sum(weight(order(rows)))
-            supers%is_refactored(s) = supers%is_refactored(s) .or. any(in_joint(columns))
-            if (size(rows) == 0) cycle
-            call sorted_order(rows, sequence)
-            rows = rows(sequence)
-            c = of_column(min(rows(1), n_columns + 1))
+            supers%pivots(own) = supers%pivots(own) + rows
+            if (in_joint(order(i))) supers%is_refactored(own) = .true.
          end associate
-         supers%parent(s) = c
-         supers%sibling(s) = supers%child(c)
-         supers%child(c) = s
-         supers%is_refactored(c) = supers%is_refactored(c) .or. supers%is_refactored(s)
       end do
-
-   contains
-
-      !> Take row NEW of S where it is beyond the columns of S, once.
-      subroutine take(new)
-         integer, intent(in) :: new
-
-         if (new <= last) return
-         if (mark(new) == s) return
-         mark(new) = s
-         supers%rows(i) = new
-         i = i + 1
-      end subroutine take
-
+      do s = 1, n
+         if (supers%parent(s) == 0) cycle
+         associate (p => supers%parent(s))
+            supers%sibling(s) = supers%child(p)
+            supers%child(p) = s
+            supers%is_refactored(p) = supers%is_refactored(p) .or. supers%is_refactored(s)
+         end associate
+      end do
    end subroutine find_supernodes
 
    !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The remaining children are ordered

@@ -42,19 +42,28 @@ contains
       real(wp), intent(inout)           :: x(tree%n)
       logical, intent(in), optional     :: followed        !! false: all
       real(wp), allocatable :: left(:)     ! contributions of fronts to the rows beyond
+      integer, allocatable  :: list(:)     ! fronts of this kind, and maybe others
       integer, allocatable  :: waiting(:)  ! children of every front that are not done
       integer, allocatable  :: done(:)     ! marks of the fronts, 0: of no front
-      integer :: f
+      integer :: f, k
       logical :: all_fronts
 
       all_fronts = .true.
       if (present(followed)) all_fronts = .not. followed
+      if (refactored) then
+         allocate (list, source=tree%refactored)
+      else if (.not. all_fronts) then
+         allocate (list, source=tree%followed)
+      else
+         allocate (list, source=[(f, f = 1, size(tree%fronts))])
+      end if
       allocate (left(merge(tree%n_left, 0, up)), done(0:size(tree%fronts)))
-      waiting = tree%fronts%n_children
+      if (up) waiting = tree%fronts%n_children
       call record_phase(trim(merge('increments', 'bodies    ', refactored)))
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
-      do f = merge(1, size(tree%fronts), up), merge(size(tree%fronts), 1, up), merge(1, -1, up)
+      do k = merge(1, size(list), up), merge(size(list), 1, up), merge(1, -1, up)
+         f = list(k)
          associate (front => tree%fronts(f))
             if (front%is_refactored .neqv. refactored) cycle
             if (up) then
@@ -63,8 +72,7 @@ contains
                call forward_from(tree, f, waiting, x, left)
                !$omp end task
             else
-               if (front%work <= task_work .and. .not. front%is_start) cycle
-               if (.not. (all_fronts .or. front%is_followed)) cycle ! nor is any front of its subtree
+               if (front%work <= task_work .and. .not. front%is_start) cycle ! part of the task of a front above it
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1) &
                !$omp depend(in: done(merge(0, front%parent, front%is_top))) depend(out: done(f))
                call backward_from(tree, f, all_fronts, x)

@@ -62,6 +62,7 @@ module front_tree
       type(front_type), allocatable :: fronts(:)  !! children before parents
       integer, allocatable :: refactored(:)       !! refactored ones, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
+      integer, allocatable :: followed(:)         !! static fronts that the displacements of sliding components use, ascending
       integer :: most_rows = 0                    !! most rows of a front, pivots included
       integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
       logical :: is_parallel = .false.            !! whether the model uses more than one thread
@@ -120,7 +121,7 @@ contains
          if (tree%fronts(f)%parent == 0) cycle
          associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
             front%is_top = front%is_refactored .neqv. parent%is_refactored
-            front%in_parent = place_in(parent, front%rows)
+            front%in_parent = places_in(parent, front%rows)
             ! a run ends where the next place in the parent is not consecutive, or is the first beyond the pivots of the parent
             front%run = [pack([(i, i=1, front%r)], front%in_parent /= [0, front%in_parent(:front%r - 1) + 1] .or. &
                                                    front%in_parent == parent%p + 1), front%r + 1]
@@ -148,6 +149,7 @@ contains
          end associate
       end do
       tree%refactored = pack([(f, f = 1, layout%n)], layout%is_refactored(:layout%n))
+      tree%followed = pack([(f, f = 1, layout%n)], layout%is_followed)
       tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%is_refactored)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
    end subroutine start_front_tree
@@ -211,6 +213,24 @@ contains
       f = minval(equations, mask=equations > 0)
       f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
+
+   !> The rows in FRONT of ascending EQUATIONS, its pivots or rows.
+   pure function places_in(front, equations) result(places)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: equations(:)
+      integer :: places(size(equations))
+      integer :: i, k
+
+      places = equations - front%first + 1
+      k = 1
+      do i = 1, size(equations)
+         if (places(i) <= front%p) cycle
+         do while (front%rows(k) < equations(i))
+            k = k + 1
+         end do
+         places(i) = front%p + k
+      end do
+   end function places_in
 
    !> Row of EQUATION, one of its pivots or rows, in FRONT; 0 for equation 0.
    elemental integer function place_in(front, equation) result(place)

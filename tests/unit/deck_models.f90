@@ -85,6 +85,10 @@ contains
                  model, errors)
       problem = ''
       if (errors%n > 0) problem = errors%items(1)%message
+      if (errors%n == 0 .and. index(cards, 'JSHEAR') == 0) then ! for some_stiffnesses, which act along all axes
+         model%joints%list%law%shear(1)%given = .true.
+         model%joints%list%law%shear(2)%given = .true.
+      end if
    end subroutine model_of_cards
 
    !> The cards of sample model WHICH, 1 to 5 in the order above.
