@@ -69,6 +69,7 @@ module equation_solver
       integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
       integer, allocatable  :: node(:), direction(:) !! (n) node and direction of each equation
       integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
+      integer, allocatable  :: sliding(:)            !! of these, unknowns that follow the others: no force moves them
       integer, allocatable  :: retained(:)           !! nodes of the equations and of interface elements, ascending
       integer, allocatable  :: retained_index(:)     !! (n_nodes) position of a node among the retained ones, 0: not retained
       integer, allocatable  :: locked(:)             !! equations whose unknowns have been held since they were numbered

@@ -47,7 +47,7 @@ contains
       if (present(factorisations)) expected = factorisations
       call choose_solver(model, graph, n, wanted, expected, system)
       if (present(shift)) system%shift = shift
-      allocate (system%locked(0))
+      allocate (system%locked(0), system%sliding(0))
       call system%start(model, graph, failure)
       if (failure%raised) return
       allocate (system%retained_index(model%mesh%n_nodes), source=0) ! positions, also in the interface elements

@@ -45,8 +45,7 @@ module tree_solver
       type(front_layout_type), private :: layout  !! freed by start
       logical, allocatable, private :: in_joint(:) !! (n_nodes) nodes whose stiffness changes in the run or is added to the bodies
       logical, allocatable, private :: slides(:, :) !! (dimension, n_nodes) sliding components
-      integer, allocatable, private :: sliding(:) !! equations of these in static fronts
-      real(wp), allocatable, private :: d(:)      !! of the same [force/length]
+      real(wp), allocatable, private :: d(:)      !! of the sliding unknowns [force/length]
    contains
       procedure :: lay_out, start, form_bodies, add_to_bodies, condense, condensed_load, form_structure, solve, multiply, recover
       procedure :: forget_factors, forget_past, precondition, precondition_many, solve_by_factor, solve_many, multiply_by_factor
