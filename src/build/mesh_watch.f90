@@ -113,7 +113,7 @@ contains
       real(wp), allocatable :: reach(:)
       integer :: i, k, n, n_found
 
-      nodes = pack([(i, i = 1, n_points(mesh))], [(may_part(mesh, freedoms, i), i = 1, n_points(mesh))])
+      allocate (nodes, source=pack([(i, i = 1, n_points(mesh))], [(may_part(mesh, freedoms, i), i = 1, n_points(mesh))]))
       call find_reach(mesh, reach)
       call search%build(mesh%x(:, nodes))
       allocate (has_near(size(nodes)), parent(0))

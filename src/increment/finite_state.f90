@@ -19,6 +19,8 @@ module finite_state
 
    public :: check_state
 
+   integer, parameter :: many = 10000 ! nodes from which on several threads test them
+
 contains
 
    !> FAILURE names the first load, displacement, interface element, bolt, joint or unbalanced force of the completed increment
@@ -78,11 +80,20 @@ contains
          character(*), intent(in) :: noun
          real(wp), intent(in)     :: array(:, :) !! (dimension, nodes)
          integer, intent(in)      :: nodes(:)
-         integer :: at(2)
+         integer :: at(2), i
+         logical :: sound
 
-         if (all(ieee_is_finite(array))) then ! as fast as memory, in every increment
-            if (maxval(abs(array)) <= largest_measure) return
-         end if
+         sound = .true.
+         !$omp parallel do schedule(static) default(shared) reduction(.and.: sound) if(size(array, 2) > many)
+         do i = 1, size(array, 2) ! in every increment
+            if (all(ieee_is_finite(array(:, i)))) then
+               sound = sound .and. all(abs(array(:, i)) <= largest_measure)
+            else
+               sound = .false.
+            end if
+         end do
+         !$omp end parallel do
+         if (sound) return
          at = findloc(is_measure(array), .false.)
          if (at(1) > 0) call check(noun//' of '//unknown_name(model, nodes(at(2)), at(1)), [array(at(1), at(2))])
       end subroutine check_nodes

@@ -5,7 +5,7 @@
 !! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemm, dgemv, dtrmv, dtrsm
-   use front_tree, only: climb, front_tree_type, front_type, task_work
+   use front_tree, only: climb, front_tree_type, front_type, task_entries
    use front_assembly, only: children_done, is_tiled
    use front_kernel, only: substitute, substitute_back
    use front_tiles, only: substitute_in_tiles
@@ -16,7 +16,6 @@ module front_solve
    implicit none
    private
 
-   integer, parameter :: few_rows = 150 ! of a front whose product with a vector is no task
    integer, parameter :: together = 5   ! columns that are solved at once, whatever the number of threads
    integer, parameter :: more_together = 10 ! in the refactored fronts alone
 
@@ -67,12 +66,12 @@ contains
          associate (front => tree%fronts(f))
             if (front%is_refactored .neqv. refactored) cycle
             if (up) then
-               if (.not. front%is_start) cycle
+               if (.not. front%starts_sweep) cycle
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1)
                call forward_from(tree, f, waiting, x, left)
                !$omp end task
             else
-               if (front%work <= task_work .and. .not. front%is_start) cycle ! part of the task of a front above it
+               if (front%entries <= task_entries .and. .not. front%starts_sweep) cycle ! part of the task of a front above it
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1) &
                !$omp depend(in: done(merge(0, front%parent, front%is_top))) depend(out: done(f))
                call backward_from(tree, f, all_fronts, x)
@@ -124,7 +123,7 @@ contains
       integer  :: g
 
       began = task_begins()
-      do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%work > task_work), -1
+      do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%entries > task_entries), -1
          if (tree%fronts(g)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
          if (all_fronts .or. tree%fronts(g)%is_followed) call backward(tree, g, x)
       end do
@@ -212,11 +211,8 @@ contains
       integer :: k
 
       allocate (own(tree%n), left(tree%n_left))
-      !$omp parallel default(shared) if(tree%is_parallel)
-      !$omp single
-      do k = 1, size(tree%refactored)
-         !$omp task default(shared) firstprivate(k) private(x_f, y_f) final(omp_get_num_threads() == 1) &
-         !$omp if(tree%fronts(tree%refactored(k))%p + tree%fronts(tree%refactored(k))%r > few_rows)
+      !$omp parallel do schedule(dynamic, 2) default(shared) private(x_f, y_f) if(tree%is_parallel)
+      do k = size(tree%refactored), 1, -1 ! the largest are among the last
          associate (front => tree%fronts(tree%refactored(k)), p => tree%fronts(tree%refactored(k))%p)
             x_f = [x(front%first:front%first + p - 1), x(front%rows)]
             allocate (y_f(p + front%r), source=0.0_wp)
@@ -224,11 +220,10 @@ contains
             call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
             own(front%first:front%first + p - 1) = y_f(:p)
             left(front%left + 1:front%left + front%r) = y_f(p + 1:)
+            deallocate (y_f)
          end associate
-         !$omp end task
       end do
-      !$omp end single
-      !$omp end parallel
+      !$omp end parallel do
       y(tree%equations) = 0.0_wp
       do k = 1, size(tree%refactored)
          associate (front => tree%fronts(tree%refactored(k)))

@@ -14,7 +14,7 @@ module front_tiles
    public :: eliminate_in_tiles, substitute_in_tiles
 
    integer, parameter, public :: tiled_rows = 1024 !! rows of a front from which on it has tiles
-   integer, parameter :: solved = 256             ! rows and columns of a tile in a substitution
+   integer, parameter :: solved = 384             ! rows and columns of a tile in a substitution
    integer, parameter :: deep = 2                 ! columns of tiles whose products are subtracted together
 
 contains

@@ -17,6 +17,7 @@ module front_tree
    public :: start_front_tree, front_of, place_in, climb
 
    real(wp), parameter, public :: task_work = 2.0e6_wp !! operations in a subtree from which on it is a task
+   real(wp), parameter, public :: task_entries = 2.0e5_wp !! entries of the factor likewise, in a substitution: some 0.1 ms
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation from which on it uses several threads
 
    !> The initial content of a refactored front, which is the same in every increment.
@@ -49,6 +50,8 @@ module front_tree
       integer :: n_children = 0                   !! children of the same kind
       integer :: begin = 0                        !! the first front of its subtree
       logical :: is_start = .false.               !! a task begins with its subtree, waiting for no other
+      real(wp) :: entries = 0.0_wp                !! of the factor, in its subtree likewise
+      logical :: starts_sweep = .false.           !! a task of a substitution likewise
    end type front_type
 
    type, public :: front_tree_type
@@ -136,16 +139,21 @@ contains
             front%work = front%work + front_operations(real(front%p, wp), real(front%r, wp))
             front%begin = minval([f, tree%fronts(front%children)%begin])
             front%is_start = front%n_children == 0 .or. front%is_top .and. front%work <= task_work
+            front%entries = front%entries + real(front%p, wp)*(front%p + front%r)
+            front%starts_sweep = front%n_children == 0 .or. front%is_top .and. front%entries <= task_entries
             if (front%is_top) cycle
             associate (parent => tree%fronts(front%parent))
                parent%work = parent%work + front%work
+               parent%entries = parent%entries + front%entries
                parent%n_children = parent%n_children + 1
             end associate
          end associate
       end do
       do f = 1, layout%n
          associate (front => tree%fronts(f))
-            if (front%work <= task_work .and. .not. front%is_top) front%is_start = tree%fronts(front%parent)%work > task_work
+            if (front%is_top) cycle
+            if (front%work <= task_work) front%is_start = tree%fronts(front%parent)%work > task_work
+            if (front%entries <= task_entries) front%starts_sweep = tree%fronts(front%parent)%entries > task_entries
          end associate
       end do
       tree%refactored = pack([(f, f = 1, layout%n)], layout%is_refactored(:layout%n))
