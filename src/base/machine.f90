@@ -9,7 +9,8 @@ module machine
    implicit none
    private
 
-   public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads, kernel_figure, &
+   public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, &
+             has_huge_pages, use_threads, kernel_figure, &
              memory_left_by_groups, &
              address_space_left, reserve_for_threads, note_first_call, for_threads, openblas_set_num_threads
 
@@ -123,6 +124,15 @@ contains
       ok = last - 1 > first
       if (ok) ok = madvise(begin + bytes*first, int(bytes*(last - 1 - first), c_size_t), dont_need) == 0
    end subroutine give_back
+
+   !> Whether the heap is in huge pages, 2 MiB on x86-64: entries of a matrix that are not touched then take memory too.
+   logical function has_huge_pages()
+      character(1000) :: tunables
+      integer :: status
+
+      call get_environment_variable('GLIBC_TUNABLES', tunables, status=status)
+      has_huge_pages = status == 0 .and. index(tunables, 'glibc.malloc.hugetlb=1') > 0
+   end function has_huge_pages
 
    !> Memory that the program can still take [bytes]: the least of the free memory of the machine, the rest of its control groups (a
    !! container's limit) and the rest of a limit on its address space; huge where none of them can be read.

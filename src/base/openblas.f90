@@ -1,10 +1,11 @@
 !> Prepares OpenBLAS: takes a kernel that suits the processor, and measures the buffer that a thread needs at its first call.
 !! OpenBLAS compares the number of the processor with those that it knows; where it knows none, it takes a kernel without AVX2, two
 !! to three times slower. Prepares OpenMP: a thread that waits for another one sleeps after a short while; libgomp alone lets it
-!! count to 300,000 first, on the processor that the other thread wants where other programs run: five to ten times slower.
+!! count to 300,000 first, on the processor that the other thread wants where other programs run: five to ten times slower. On many
+!! processors it asks for huge pages: threads that touch new memory at the same time wait for each other at every page.
 !! Environment variables are read only when a library is loaded: the program starts itself anew.
 !! Source: OpenBLAS, driver/others/dynamic.c (OPENBLAS_CORETYPE, openblas_get_corename), memory.c (one buffer a thread); GNU Offloading
-!! and Multi Processing Runtime Library, section 4.21 (GOMP_SPINCOUNT).
+!! and Multi Processing Runtime Library, section 4.21 (GOMP_SPINCOUNT); GNU C Library, section 38.2 (glibc.malloc.hugetlb).
 module openblas
    use blas_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
    use c_library, only: c_isatty
@@ -12,7 +13,7 @@ module openblas
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use machine, only: address_space_left, kernel_figure, no_figure, openblas_set_num_threads, reserve_for_threads
-   use omp_lib, only: omp_get_max_threads
+   use omp_lib, only: omp_get_max_threads, omp_get_num_procs
    use terminal, only: argument_text
    use tolerances, only: rounding_of_sums
    implicit none
@@ -27,6 +28,9 @@ module openblas
    character(*), parameter :: trial = 'JOINTFEM_TRIAL'          ! a process that only tries
    character(*), parameter :: spins = 'GOMP_SPINCOUNT'          ! what a thread counts before it sleeps
    character(*), parameter :: few_spins = '1000'                ! as libgomp where there are more threads than processors
+   character(*), parameter :: more_spins = '20000'              ! on many processors
+   character(*), parameter :: tunables = 'GLIBC_TUNABLES', huge_pages = 'glibc.malloc.hugetlb=1'
+   integer, parameter :: many_processors = 8                    ! from which on threads rarely wait for a processor
    character(*), parameter :: space_trial = 'space', kernel_trial = 'kernel'
 
    character(*), parameter :: without_avx2 = ' Katmai Coppermine Northwood Prescott Banias Atom Core2 Penryn Dunnington '// &
@@ -94,7 +98,8 @@ contains
    !> At the start of the program: measure the first call, choose the kernel, let waiting threads sleep, or be the trial of another
    !! process. What the user has set stays.
    subroutine prepare_libraries()
-      logical :: has_space
+      integer :: processors, threads
+      logical :: has_space, is_changed
 
       select case (environment(trial))
       case (space_trial)
@@ -102,10 +107,17 @@ contains
       case (kernel_trial)
          call c_exit(merge(0_c_int, 1_c_int, kernel_is_right()))
       end select
-      if (environment(spins)//environment('OMP_WAIT_POLICY') == '') then
-         call set(spins, few_spins)
-         if (omp_get_max_threads() > 1) call execute_this()
+      processors = omp_get_num_procs()
+      threads = omp_get_max_threads()
+      is_changed = environment(spins)//environment('OMP_WAIT_POLICY') == ''
+      if (is_changed) call set(spins, trim(merge(more_spins, few_spins//' ', processors >= many_processors)))
+      if (processors >= many_processors) then
+         if (environment(tunables) == '') then
+            call set(tunables, huge_pages)
+            is_changed = .true.
+         end if
       end if
+      if (is_changed .and. threads > 1) call execute_this()
       replaced = environment(mark)
       call unset(mark)
       call measure_buffer(has_space)

@@ -10,12 +10,13 @@
 !! The factor of a front that is not positive definite has signs, A = L S L^T, S diagonal of +1 and -1: L21 = A21 L11^-T S. The
 !! subtracted product is L S L^T = L L^T - 2 L_- L_-^T, L_- the columns whose sign is -1. A structure has few of these.
 module front_kernel
-   use blas_lapack, only: dgemm, dgemv, dtrsv
+   use blas_lapack, only: dgemm, dgemv, dtrsm, dtrsv
    use kinds, only: long, wp
    implicit none
    private
 
-   public :: eliminate, top_row, touched_entries, substitute, substitute_back, solve_lower, solve_upper, subtract_columns, &
+   public :: eliminate, top_row, touched_entries, substitute, substitute_back, substitute_columns, &
+             substitute_columns_back, solve_lower, solve_upper, subtract_columns, &
              subtract_rows, eliminate_columns, divide_rows, add_to_square
 
    integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth giving back
@@ -246,6 +247,38 @@ contains
       if (n > p) call subtract_rows(n, n - p, p, panel(p + 1, 1), w(p + 1), w)
       call solve_upper(n, p, panel, w)
    end subroutine substitute_back
+
+   !> The same as substitute for M columns of W. Strips of rows are tasks.
+   subroutine substitute_columns(n, p, m, panel, w)
+      integer, intent(in)     :: n, p, m
+      real(wp), intent(in)    :: panel(n, p)
+      real(wp), intent(inout) :: w(n, m)
+      integer :: i
+
+      call dtrsm('L', 'L', 'N', 'N', p, m, 1.0_wp, panel, n, w, n)
+      do i = p + 1, n, strip
+         !$omp task default(shared) firstprivate(i) if(n - p > strip)
+         call dgemm('N', 'N', min(strip, n - i + 1), m, p, -1.0_wp, panel(i, 1), n, w, n, 1.0_wp, w(i, 1), n)
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine substitute_columns
+
+   !> The same as substitute_back for M columns of W.
+   subroutine substitute_columns_back(n, p, m, panel, w)
+      integer, intent(in)     :: n, p, m
+      real(wp), intent(in)    :: panel(n, p)
+      real(wp), intent(inout) :: w(n, m)
+      integer :: j
+
+      do j = 1, merge(p, 0, n > p), strip
+         !$omp task default(shared) firstprivate(j) if(p > strip)
+         call dgemm('T', 'N', min(strip, p - j + 1), m, n - p, -1.0_wp, panel(p + 1, j), n, w(p + 1, 1), n, 1.0_wp, w(j, 1), n)
+         !$omp end task
+      end do
+      !$omp taskwait
+      call dtrsm('L', 'L', 'T', 'N', p, m, 1.0_wp, panel, n, w, n)
+   end subroutine substitute_columns_back
 
    !> L y = w in the first P of M rows, w - L y in the others.
    pure subroutine solve_lower(n, m, p, l, w)

@@ -6,6 +6,7 @@ module front_layout
    use front_kernel, only: large, touched_entries
    use kinds, only: wp
    use lists, only: list_owners
+   use machine, only: has_huge_pages
    use node_graph, only: node_graph_type
    use sliding_components, only: divide_nodes
    implicit none
@@ -243,6 +244,8 @@ contains
       layout%kept_entries = sum(filled)
       panel = touched_entries(p + r, p)
       update = touched_entries(r, r)
+      if (has_huge_pages()) panel = (p + r)*p
+      if (has_huge_pages()) update = r*r
       ! two indices for each entry, or the whole front where that takes less memory
       layout%most_entries = most_standing(layout, panel, update, &
                                           sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*((p + r)*p + r**2))))

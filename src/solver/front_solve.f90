@@ -4,10 +4,10 @@
 !! Independent subtrees are tasks of OpenMP. On the way up every front keeps its contributions to the rows beyond until its
 !! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
-   use blas_lapack, only: dgemm, dgemv, dtrmv, dtrsm
+   use blas_lapack, only: dgemv, dtrmv
    use front_tree, only: climb, front_tree_type, front_type, task_entries
    use front_assembly, only: children_done, is_tiled
-   use front_kernel, only: substitute, substitute_back
+   use front_kernel, only: substitute, substitute_back, substitute_columns, substitute_columns_back
    use front_tiles, only: substitute_in_tiles
    use kept_blocks, only: block_times_vector
    use kinds, only: wp
@@ -40,7 +40,18 @@ contains
       logical, intent(in)               :: refactored, up
       real(wp), intent(inout)           :: x(tree%n)
       logical, intent(in), optional     :: followed        !! false: all
-      real(wp), allocatable :: left(:)     ! contributions of fronts to the rows beyond
+
+      call sweep_columns(tree, refactored, up, 1, x, followed)
+   end subroutine sweep
+
+   !> The same for M columns of X.
+   subroutine sweep_columns(tree, refactored, up, m, x, followed)
+      type(front_tree_type), intent(in) :: tree
+      logical, intent(in)               :: refactored, up
+      integer, intent(in)               :: m
+      real(wp), intent(inout)           :: x(tree%n, m)
+      logical, intent(in), optional     :: followed
+      real(wp), allocatable :: left(:, :)  ! contributions of fronts to the rows beyond
       integer, allocatable  :: list(:)     ! fronts of this kind, and maybe others
       integer, allocatable  :: waiting(:)  ! children of every front that are not done
       integer, allocatable  :: done(:)     ! marks of the fronts, 0: of no front
@@ -56,7 +67,7 @@ contains
       else
          allocate (list, source=[(f, f = 1, size(tree%fronts))])
       end if
-      allocate (left(merge(tree%n_left, 0, up)), done(0:size(tree%fronts)))
+      allocate (left(merge(tree%n_left, 0, up), m), done(0:size(tree%fronts)))
       if (up) waiting = tree%fronts%n_children
       call record_phase(trim(merge('increments', 'bodies    ', refactored)))
       !$omp parallel default(shared) if(tree%is_parallel)
@@ -68,13 +79,13 @@ contains
             if (up) then
                if (.not. front%starts_sweep) cycle
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1)
-               call forward_from(tree, f, waiting, x, left)
+               call forward_from(tree, f, m, waiting, x, left)
                !$omp end task
             else
                if (front%entries <= task_entries .and. .not. front%starts_sweep) cycle ! part of the task of a front above it
                !$omp task default(shared) firstprivate(f) if(omp_get_num_threads() > 1) final(omp_get_num_threads() == 1) &
                !$omp depend(in: done(merge(0, front%parent, front%is_top))) depend(out: done(f))
-               call backward_from(tree, f, all_fronts, x)
+               call backward_from(tree, f, m, all_fronts, x)
                !$omp end task
             end if
          end associate
@@ -85,28 +96,28 @@ contains
       do f = 1, size(tree%fronts)
          if (.not. tree%fronts(f)%is_top .or. tree%fronts(f)%is_refactored) cycle
          associate (front => tree%fronts(f))
-            x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
+            x(front%rows, :) = x(front%rows, :) + left(front%left + 1:front%left + front%r, :)
          end associate
       end do
-   end subroutine sweep
+   end subroutine sweep_columns
 
    !> The subtree of front START, then the fronts above it up to one that waits for another subtree.
-   subroutine forward_from(tree, start, waiting, x, left)
+   subroutine forward_from(tree, start, m, waiting, x, left)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: start
+      integer, intent(in)               :: start, m
       integer, intent(inout)            :: waiting(:)
-      real(wp), intent(inout)           :: x(tree%n), left(:)
+      real(wp), intent(inout)           :: x(tree%n, m), left(:, :)
       real(wp) :: began
       integer  :: f
 
       began = task_begins()
       do f = tree%fronts(start)%begin, start - 1
-         if (tree%fronts(f)%is_refactored .eqv. tree%fronts(start)%is_refactored) call forward(tree, f, x, left)
+         if (tree%fronts(f)%is_refactored .eqv. tree%fronts(start)%is_refactored) call forward(tree, f, m, x, left)
       end do
       f = start
       do while (f > 0)
-         call forward(tree, f, x, left)
-         if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+         call forward(tree, f, m, x, left)
+         if (is_recorded .and. .not. has_tiles(tree%fronts(f), m)) &
             call record_task(began, 'forward', children_done(tree%fronts(f))//key('+', -f))
          began = task_begins()
          call climb(tree, waiting, f)
@@ -114,78 +125,100 @@ contains
    end subroutine forward_from
 
    !> Front F, and its subtree where that is one task.
-   subroutine backward_from(tree, f, all_fronts, x)
+   subroutine backward_from(tree, f, m, all_fronts, x)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
+      integer, intent(in)               :: f, m
       logical, intent(in)               :: all_fronts !! or only those that are followed
-      real(wp), intent(inout)           :: x(tree%n)
+      real(wp), intent(inout)           :: x(tree%n, m)
       real(wp) :: began
       integer  :: g
 
       began = task_begins()
       do g = f, merge(f, tree%fronts(f)%begin, tree%fronts(f)%entries > task_entries), -1
          if (tree%fronts(g)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
-         if (all_fronts .or. tree%fronts(g)%is_followed) call backward(tree, g, x)
+         if (all_fronts .or. tree%fronts(g)%is_followed) call backward(tree, g, m, x)
       end do
-      if (is_recorded .and. .not. is_tiled(tree%fronts(f))) &
+      if (is_recorded .and. .not. has_tiles(tree%fronts(f), m)) &
          call record_task(began, 'backward', key('<', tree%fronts(f)%parent)//key('+', f))
    end subroutine backward_from
 
-   !> L y = x in front F, from X and the contributions LEFT by its children. The contributions of F are left likewise.
-   subroutine forward(tree, f, x, left)
+   !> Whether the substitution in FRONT is done in tiles: one column only.
+   pure logical function has_tiles(front, m)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: m
+
+      has_tiles = m == 1 .and. is_tiled(front)
+   end function has_tiles
+
+   !> L y = x in front F, from M columns of X and the contributions LEFT by its children. The contributions of F are left likewise.
+   subroutine forward(tree, f, m, x, left)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(tree%n), left(:)
-      real(wp), allocatable :: w(:) ! pivots, rows beyond
+      integer, intent(in)               :: f, m
+      real(wp), intent(inout)           :: x(tree%n, m), left(:, :)
+      real(wp), allocatable :: w(:, :) ! pivots, rows beyond
       real(wp) :: began
-      integer  :: i
+      integer  :: c, i
 
       began = task_begins()
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         allocate (w(p + r))
-         w(:p) = x(first:first + p - 1)
-         w(p + 1:) = 0.0_wp
+         allocate (w(p + r, m))
+         w(:p, :) = x(first:first + p - 1, :)
+         w(p + 1:, :) = 0.0_wp
          do i = 1, size(front%children)
             associate (child => tree%fronts(front%children(i)))
-               if (child%is_refactored .eqv. front%is_refactored) &
-                  w(child%in_parent) = w(child%in_parent) + left(child%left + 1:child%left + child%r)
+               if (child%is_refactored .neqv. front%is_refactored) cycle
+               do c = 1, m
+                  w(child%in_parent, c) = w(child%in_parent, c) + left(child%left + 1:child%left + child%r, c)
+               end do
             end associate
          end do
-         where (tree%locked(first:first + p - 1)) w(:p) = 0.0_wp
-         if (any(abs(w(:p)) > 0.0_wp)) then ! loads act on few fronts and their ancestors
-            if (is_tiled(front)) then
+         do c = 1, m
+            where (tree%locked(first:first + p - 1)) w(:p, c) = 0.0_wp
+         end do
+         if (any(abs(w(:p, :)) > 0.0_wp)) then ! loads act on few fronts and their ancestors
+            if (has_tiles(front, m)) then
                if (is_recorded) call record_task(began, 'gather', children_done(front)//key('>', f, 0)//key('+', f))
                call substitute_in_tiles(f, p + r, p, front%panel, w, back=.false.)
                began = task_begins()
-            else
+            else if (m == 1) then
                call substitute(p + r, p, front%panel, w)
+            else
+               call substitute_columns(p + r, p, m, front%panel, w)
             end if
          end if
-         x(first:first + p - 1) = w(:p)
-         left(front%left + 1:front%left + r) = w(p + 1:)
-         if (is_recorded .and. is_tiled(front)) call record_task(began, 'scatter', key('<', f)//key('+', -f))
+         x(first:first + p - 1, :) = w(:p, :)
+         left(front%left + 1:front%left + r, :) = w(p + 1:, :)
+         if (is_recorded .and. has_tiles(front, m)) call record_task(began, 'scatter', key('<', f)//key('+', -f))
       end associate
    end subroutine forward
 
-   !> L^T x = y in front F, X known in the rows beyond.
-   subroutine backward(tree, f, x)
+   !> L^T x = y in front F, M columns of X known in the rows beyond.
+   subroutine backward(tree, f, m, x)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(:)
-      real(wp), allocatable :: w(:) ! pivots, rows beyond
+      integer, intent(in)               :: f, m
+      real(wp), intent(inout)           :: x(tree%n, m)
+      real(wp), allocatable :: w(:, :) ! pivots, rows beyond
       real(wp) :: began
+      integer  :: c
 
       began = task_begins()
-      associate (front => tree%fronts(f), first => tree%fronts(f)%first, p => tree%fronts(f)%p)
-         call apply_signs(front, x)
-         allocate (w, source=[x(first:first + p - 1), x(front%rows)])
-         if (is_tiled(front)) then
+      associate (front => tree%fronts(f), first => tree%fronts(f)%first, p => tree%fronts(f)%p, n => tree%fronts(f)%p + &
+                                                                                                     tree%fronts(f)%r)
+         allocate (w(n, m))
+         do c = 1, m
+            call apply_signs(front, x(:, c))
+            w(:p, c) = x(first:first + p - 1, c)
+            w(p + 1:, c) = x(front%rows, c)
+         end do
+         if (has_tiles(front, m)) then
             if (is_recorded) call record_task(began, 'gather', key('<', front%parent)//key('>', f, 0)//key('+', f))
-            call substitute_in_tiles(f, size(w), p, front%panel, w, back=.true.)
+            call substitute_in_tiles(f, n, p, front%panel, w, back=.true.)
+         else if (m == 1) then
+            call substitute_back(n, p, front%panel, w)
          else
-            call substitute_back(size(w), p, front%panel, w)
+            call substitute_columns_back(n, p, m, front%panel, w)
          end if
-         x(first:first + p - 1) = w(:p)
+         x(first:first + p - 1, :) = w(:p, :)
       end associate
    end subroutine backward
 
@@ -236,45 +269,21 @@ contains
    end subroutine refactored_times_vector
 
    !> [L S L^T]^-1 X on all equations, or on the REFACTORED ones alone, for the columns of X, zero where locked. The panel of a front
-   !! is read once for several columns; others are those of other threads.
+   !! is read once for several columns.
    subroutine solve_columns(tree, refactored, x)
       type(front_tree_type), intent(in)   :: tree
       logical, intent(in)                 :: refactored
       real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
-      real(wp), allocatable :: own(:, :), beyond(:, :)
-      integer :: at_once, c, f, last
+      integer :: at_once, c, m
 
       at_once = merge(more_together, together, refactored)
-      !$omp parallel do default(shared) private(own, beyond, f, last) schedule(dynamic) if(tree%is_parallel)
       do c = 1, size(x, 2), at_once
-         last = min(size(x, 2), c + at_once - 1)
-         associate (y => x(:, c:last), m => last - c + 1)
-            do f = 1, size(tree%fronts)
-               if (refactored .and. .not. tree%fronts(f)%is_refactored) cycle
-               associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-                  own = y(first:first + p - 1, :)
-                  where (spread(tree%locked(first:first + p - 1), 2, m)) own = 0.0_wp
-                  call dtrsm('L', 'L', 'N', 'N', p, m, 1.0_wp, front%panel, p + r, own, p)
-                  y(first:first + p - 1, :) = own
-                  beyond = y(front%rows, :)
-                  if (r > 0) call dgemm('N', 'N', r, m, p, -1.0_wp, front%panel(p + 1, 1), p + r, own, p, 1.0_wp, beyond, r)
-                  y(front%rows, :) = beyond
-               end associate
-            end do
-            do f = size(tree%fronts), 1, -1
-               if (refactored .and. .not. tree%fronts(f)%is_refactored) cycle
-               associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-                  own = y(first:first + p - 1, :)
-                  if (allocated(front%negative)) own(front%negative, :) = -own(front%negative, :)
-                  beyond = y(front%rows, :)
-                  if (r > 0) call dgemm('T', 'N', p, m, r, -1.0_wp, front%panel(p + 1, 1), p + r, beyond, r, 1.0_wp, own, p)
-                  call dtrsm('L', 'L', 'T', 'N', p, m, 1.0_wp, front%panel, p + r, own, p)
-                  y(first:first + p - 1, :) = own
-               end associate
-            end do
-         end associate
+         m = min(size(x, 2) - c + 1, at_once)
+         if (.not. refactored) call sweep_columns(tree, .false., .true., m, x(:, c:c + m - 1))
+         call sweep_columns(tree, .true., .true., m, x(:, c:c + m - 1))
+         call sweep_columns(tree, .true., .false., m, x(:, c:c + m - 1))
+         if (.not. refactored) call sweep_columns(tree, .false., .false., m, x(:, c:c + m - 1))
       end do
-      !$omp end parallel do
    end subroutine solve_columns
 
    !> X = L S L^T X on all equations, zero where locked: the product with the factorised matrix.

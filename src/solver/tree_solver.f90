@@ -23,7 +23,7 @@ module tree_solver
    use node_graph, only: list_joined, node_graph_type
    use sliding_components, only: find_sliding
    use text_tools, only: integer_text
-   use tolerances, only: step_tolerance
+   use tolerances, only: sliding_stiffness, step_tolerance
    implicit none
    private
 
@@ -50,8 +50,6 @@ module tree_solver
       procedure :: lay_out, start, form_bodies, add_to_bodies, condense, condensed_load, form_structure, solve, multiply, recover
       procedure :: forget_factors, forget_past, precondition, precondition_many, solve_by_factor, solve_many, multiply_by_factor
    end type tree_solver_type
-
-   real(wp), parameter :: sliding_share = 1.0e-4_wp ! of the diagonal entry: d, whose forces are small beside those of the joints
 
 contains
 
@@ -134,7 +132,7 @@ contains
          end associate
       end do
       self%stiffest = maxval(self%diagonal)
-      self%d = sliding_share*self%diagonal(self%sliding)
+      self%d = sliding_stiffness*self%diagonal(self%sliding)
    end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)

@@ -85,7 +85,9 @@ spins() { # NAME=VALUE...: GOMP_SPINCOUNT of the program that waits for its deck
    echo "$spins"
 }
 if [ "$(nproc)" -gt 1 ]; then
-   same 'a thread that waits sleeps soon' 1000 "$(spins A=1)"
+   same 'a thread that waits sleeps soon' "$([ "$(nproc)" -lt 8 ] && echo 1000 || echo 20000)" "$(spins A=1)"
+   echo 'int omp_get_num_procs_(void) { return 8; }' | ${CC:-cc} -shared -fPIC -x c -o "$work/eight.so" - &&
+      same 'later where there are many processors' 20000 "$(spins LD_PRELOAD="$PWD/$work/eight.so")"
 else
    echo 'skipped: threads that wait: one processor'
 fi
