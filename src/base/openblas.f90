@@ -98,6 +98,7 @@ contains
    !> At the start of the program: measure the first call, choose the kernel, let waiting threads sleep, or be the trial of another
    !! process. What the user has set stays.
    subroutine prepare_libraries()
+      integer(long) :: left
       integer :: processors, threads
       logical :: has_space, is_changed
 
@@ -111,7 +112,9 @@ contains
       threads = omp_get_max_threads()
       is_changed = environment(spins)//environment('OMP_WAIT_POLICY') == ''
       if (is_changed) call set(spins, trim(merge(more_spins, few_spins//' ', processors >= many_processors)))
-      if (processors >= many_processors) then
+      left = no_figure
+      if (processors >= many_processors) left = address_space_left()
+      if (processors >= many_processors .and. left == no_figure) then
          if (environment(tunables) == '') then
             call set(tunables, huge_pages)
             is_changed = .true.

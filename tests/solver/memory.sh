@@ -103,8 +103,8 @@ check '45 x 45 x 45 from GRID cards' 3 0 'factor of 285660 equations needs about
 
 # ------------------------------------------------------------------ told from the fronts, and from the skyline
 deck hex8_20x20x20 TREE
-limited 384 "$work/hex8_20x20x20.bdf"
-check '20 x 20 x 20 in 384 MiB' 3 0 'factor of 26901 equations needs about 2[0-9]{2} MiB' 'about [0-9]{5} equations of this shape would fit'
+limited 352 "$work/hex8_20x20x20.bdf"
+check '20 x 20 x 20 in 352 MiB' 3 0 'factor of 26901 equations needs about 1[0-9]{2} MiB' 'about [0-9]{5} equations of this shape would fit'
 limited 1024 "$work/hex8_20x20x20.bdf"
 check '20 x 20 x 20 in 1024 MiB' 0 4
 deck hex8_20x20x19 TREE
