@@ -2,7 +2,7 @@
 !! Case control and JINCR cards give them: modes, response to an oscillating load, and the damping of a table.
 module stage_plan
    use bulk_data, only: eigrl_card, frequency_card, jampl_card, tabdmp1_card
-   use control_words, only: method_back, method_newton
+   use control_words, only: method_back, method_newton, method_step
    use frequency_loads, only: interpolated, load_law
    use kinds, only: wp
    use stage_entries, only: output_all, output_last, output_request
@@ -12,7 +12,8 @@ module stage_plan
    private
 
    public :: between, force_between
-   public :: loss_at, asked_frequencies, merged, stage_name, where_in_plan, factorisations_of, has_unloading_modes, shows_bodies
+   public :: loss_at, asked_frequencies, merged, stage_name, where_in_plan, factorisations_of, solves_once, &
+             has_unloading_modes, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
 
@@ -256,6 +257,19 @@ contains
          end associate
       end do
    end function factorisations_of
+
+   !> Whether each stiffness is solved for one load: by STEP, without loops.
+   pure logical function solves_once(plan, method)
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: method !! of case control
+      integer :: s
+
+      solves_once = method == method_step
+      do s = 1, size(plan%stages)
+         if (.not. allocated(plan%stages(s)%vibration)) cycle
+         if (allocated(plan%stages(s)%vibration%backbone)) solves_once = .false.
+      end do
+   end function solves_once
 
    !> Whether displacements, stresses or reactions of the bodies are printed after this increment.
    pure logical function shows_bodies(plan, stage, increment)

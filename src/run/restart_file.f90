@@ -21,7 +21,7 @@ module restart_file
    use restart_stream, only: open_restart, restart_stream_type
    use result_names, only: restart_ending
    use results, only: record_reference, record_results, return_to_rest
-   use stage_plan, only: factorisations_of, stage_plan_type, where_in_plan
+   use stage_plan, only: factorisations_of, solves_once, stage_plan_type, where_in_plan
    use support_change, only: hand_over, hold_anew
    use terminal, only: version
    use text_tools, only: integer_text, one_of
@@ -209,7 +209,8 @@ contains
          end if
          call release_bolts(model, next, analysis)
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
-            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+            call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
+                                 solves_once=solves_once(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
             if (run%failure%raised) return
             call lock_again(model, analysis, system)
@@ -241,7 +242,8 @@ contains
          call move_alloc(run%kept(k)%system, system)
          return
       end if
-      call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+      call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
+                           solves_once=solves_once(plan, deck%control%method))
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
    end subroutine take_supports
 

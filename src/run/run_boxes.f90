@@ -42,7 +42,8 @@ module run_boxes
                           phase_recover, phase_write, advance, enter, expect, goes_on, has_errors, is_over, is_unreadable, &
                           is_unwritten, run_type, start_run, tell, was_checked, was_searched, would_overwrite
    use structure_reduction, only: condense_structure
-   use stage_plan, only: factorisations_of, shows_bodies, stage_name, stage_plan_type, vibration_plan_type, where_in_plan
+   use stage_plan, only: factorisations_of, shows_bodies, solves_once, &
+                         stage_name, stage_plan_type, vibration_plan_type, where_in_plan
    use response_tables, only: list_pair_response, list_response, list_uncovered
    use vibration_tables, only: list_backbone
    use vtu_grids, only: write_piece
@@ -261,7 +262,8 @@ contains
       call check_buffers(run%failure)
       if (is_over(run)) return
       call enter(run, phase_order)
-      call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+      call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
+                           solves_once=solves_once(plan, deck%control%method))
       call enter(run, phase_factor)
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
       if (run%failure%raised) return

@@ -78,6 +78,7 @@ module equation_solver
       real(wp), allocatable :: k_int(:, :, :)        !! (3, 3, n) between the ends of interface elements now, global axes
                                                      !! [force/length]
       integer :: factorisations = 20                 !! expected number of factorisations
+      logical :: solves_once = .false.               !! each stiffness for one load, as STEP does
       type(solver_options) :: options                !! set anew with every k_int
       type(coupled_tally) :: coupled                 !! statistics of solve_coupled
       real(wp) :: shift = 0.0_wp                     !! sigma: [k_b] - sigma [m] takes the place of [k_b]; set before the bodies

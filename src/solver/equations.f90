@@ -25,15 +25,17 @@ contains
 
    !> Choose the solver; order and number the unknowns. SOLVER as in case control; FACTORISATIONS is their expected number. With
    !! a SHIFT the bodies are [k_b] - sigma [m].
-   subroutine start_equations(model, system, failure, solver, factorisations, shift)
+   subroutine start_equations(model, system, failure, solver, factorisations, shift, solves_once)
       type(model_type), intent(in)      :: model
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout) :: failure
       integer, intent(in), optional     :: solver         !! AUTO
       integer, intent(in), optional     :: factorisations !! 20
       real(wp), intent(in), optional    :: shift          !! sigma, 0 [1/time^2]
+      logical, intent(in), optional     :: solves_once    !! each stiffness, false
       type(node_graph_type) :: graph
       integer :: expected, i, n, wanted
+      logical :: once
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
@@ -45,7 +47,9 @@ contains
       call build_node_graph(model, graph, with_masses=present(shift))
       expected = 20
       if (present(factorisations)) expected = factorisations
-      call choose_solver(model, graph, n, wanted, expected, system)
+      once = .false.
+      if (present(solves_once)) once = solves_once
+      call choose_solver(model, graph, n, wanted, expected, once, system)
       if (present(shift)) system%shift = shift
       allocate (system%locked(0), system%sliding(0))
       call system%start(model, graph, failure)

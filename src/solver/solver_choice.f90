@@ -23,12 +23,13 @@ module solver_choice
 
 contains
 
-   !> The solver that case control WANTED, for N unknowns and FACTORISATIONS expected factorisations.
-   subroutine choose_solver(model, graph, n, wanted, factorisations, system)
+   !> The solver that case control WANTED, for N unknowns and FACTORISATIONS expected factorisations, each for ONCE one solution.
+   subroutine choose_solver(model, graph, n, wanted, factorisations, once, system)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n, factorisations
       integer, intent(in)               :: wanted !! solver_* of case_control
+      logical, intent(in)               :: once
       class(equation_system), allocatable, intent(out) :: system
       type(skyline_solver_type), allocatable :: candidate
       type(tree_solver_type), allocatable :: tree
@@ -52,6 +53,7 @@ contains
       else                        ! TREE with its fronts laid out; for AUTO its operations and memory decide
          allocate (tree)
          tree%factorisations = factorisations
+         tree%solves_once = once
          call tree%lay_out(model, graph)
          if (wanted == solver_auto .and. tree%is_laid_out) then
             work%static_operations = tree%description%static_operations

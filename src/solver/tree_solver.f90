@@ -4,7 +4,7 @@
 !! joints inside: the joint unknowns stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size the joint unknowns come last; the bodies are condensed piece by piece.
 !!
-!! Joints last, of joint nodes with sliding components t only the components n along the normals come last. Between two joint
+!! Joints last, for STEP, of joint nodes with sliding components t only the components n along the normals come last. Between two joint
 !! forces u_t = [G] u_n + h, h the movement under the loads where u_n = 0. The increments see one system of both:
 !!    [S] u_n = f,  d (u_t - [G] u_n) = d h
 !! with [k_b] condensed on u_n, and a stiffness d for each sliding component. [G] u_n is a back substitution in the static fronts.
@@ -69,7 +69,7 @@ contains
       self%in_joint(pack(joined, joined > 0)) = .true.
       if (n_sections(model%mesh) > 0) self%in_joint(model%mesh%sections%node) = .true.
       self%slides = find_sliding(model, joined)
-      if (graph%with_masses) self%slides = .false.
+      if (graph%with_masses .or. .not. self%solves_once) self%slides = .false.
       call choose_layout(graph, order, weight, self%in_joint, merge(count(self%slides, dim=1), 0, weight > 0), &
                          self%factorisations, self%layout, self%way)
       ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh

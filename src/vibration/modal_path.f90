@@ -40,7 +40,6 @@ module modal_path
                                                      !! generalised mass 1 and orthogonal in [M]; n = 0: it has supports
       real(wp), allocatable :: force(:, :)           !! [M] {phi} on all nodes
       real(wp), allocatable :: condensed(:, :)       !! the same condensed on the retained nodes
-      real(wp), allocatable :: of_q(:, :)            !! the same, zero for sliding components: they are part of the interior
       real(wp) :: inside = 0.0_wp                    !! q of the interior of the bodies, retained nodes fixed, for alpha = 1
       real(wp) :: sense = 1.0_wp                     !! of phi against the mode: that of the first push
       type(analysis_type)   :: rest                  !! copy of the state, in equilibrium
@@ -78,7 +77,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), on_unknowns(:, :)
       real(wp) :: work(size(model%joints%element))
-      integer :: e, i
+      integer :: e
 
       if (failure%raised) return
       allocate (modal%system, source=system)
@@ -104,12 +103,6 @@ contains
       call condense_load(modal%system, on_unknowns, modal%condensed)
       call recover_displacements(modal%system, on_unknowns, 0.0_wp*modal%condensed, inside)
       modal%inside = sum(on_unknowns*inside)
-      modal%of_q = modal%condensed
-      associate (system => modal%system)
-         do i = 1, size(system%sliding)
-            modal%of_q(system%direction(system%sliding(i)), system%retained_index(system%node(system%sliding(i)))) = 0.0_wp
-         end do
-      end associate
       allocate (modal%rest_forces(3, size(model%joints%element)), source=0.0_wp)
       modal%rest%increment_fraction = 0.0_wp
       call load_increment(model, modal, [0.0_wp, 0.0_wp], modal%rest, work, failure)
@@ -175,7 +168,6 @@ contains
       modal%phi = -modal%phi
       modal%force = -modal%force
       modal%condensed = -modal%condensed
-      modal%of_q = -modal%of_q
    end subroutine reverse
 
    !> A state NOW at rest, with the tolerance of equilibrium for loads up to ALPHA.
@@ -367,7 +359,7 @@ contains
       type(analysis_type), intent(in)   :: now
       real(wp), intent(in)              :: alpha
 
-      q = sum(modal%of_q*(now%u - modal%rest%u)) + alpha*modal%inside
+      q = sum(modal%condensed*(now%u - modal%rest%u)) + alpha*modal%inside
    end function coordinate
 
 end module modal_path
