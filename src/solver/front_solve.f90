@@ -274,17 +274,50 @@ contains
       type(front_tree_type), intent(in)   :: tree
       logical, intent(in)                 :: refactored
       real(wp), contiguous, intent(inout) :: x(:, :) !! (n, columns)
-      integer :: at_once, c, m
+      integer :: at_once, c, last, m
 
       at_once = merge(more_together, together, refactored)
       do c = 1, size(x, 2), at_once
-         m = min(size(x, 2) - c + 1, at_once)
-         if (.not. refactored) call sweep_columns(tree, .false., .true., m, x(:, c:c + m - 1))
-         call sweep_columns(tree, .true., .true., m, x(:, c:c + m - 1))
-         call sweep_columns(tree, .true., .false., m, x(:, c:c + m - 1))
-         if (.not. refactored) call sweep_columns(tree, .false., .false., m, x(:, c:c + m - 1))
+         last = min(size(x, 2), c + at_once - 1)
+         m = last - c + 1
+         if (tree%is_parallel) then
+            if (.not. refactored) call sweep_columns(tree, .false., .true., m, x(:, c:last))
+            call sweep_columns(tree, .true., .true., m, x(:, c:last))
+            call sweep_columns(tree, .true., .false., m, x(:, c:last))
+            if (.not. refactored) call sweep_columns(tree, .false., .false., m, x(:, c:last))
+         else
+            call solve_alone(tree, refactored, m, x(:, c:last))
+         end if
       end do
    end subroutine solve_columns
+
+   !> The same for M columns of a small model, by one thread: each front adds to the rows beyond at once.
+   subroutine solve_alone(tree, refactored, m, x)
+      type(front_tree_type), intent(in) :: tree
+      logical, intent(in)               :: refactored
+      integer, intent(in)               :: m
+      real(wp), intent(inout)           :: x(tree%n, m)
+      real(wp), allocatable :: w(:, :) ! pivots, rows beyond
+      integer :: c, f
+
+      do f = 1, size(tree%fronts)
+         associate (front => tree%fronts(f), p => tree%fronts(f)%p, first => tree%fronts(f)%first)
+            if (refactored .and. .not. front%is_refactored) cycle
+            allocate (w(p + front%r, m))
+            do c = 1, m
+               w(:, c) = [merge(0.0_wp, x(first:first + p - 1, c), tree%locked(first:first + p - 1)), x(front%rows, c)]
+            end do
+            call substitute_columns(p + front%r, p, m, front%panel, w)
+            x(first:first + p - 1, :) = w(:p, :)
+            x(front%rows, :) = w(p + 1:, :)
+            deallocate (w)
+         end associate
+      end do
+      do f = size(tree%fronts), 1, -1
+         if (refactored .and. .not. tree%fronts(f)%is_refactored) cycle
+         call backward(tree, f, m, x)
+      end do
+   end subroutine solve_alone
 
    !> X = L S L^T X on all equations, zero where locked: the product with the factorised matrix.
    subroutine factor_times_vector(tree, x)
