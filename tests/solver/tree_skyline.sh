@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every deck of input/ (four long ones by TREE alone), and the decks in this folder (moved supports, one large enough for several
+# Every deck of input/ (four long ones by TREE alone), and the decks in this folder (moved supports, faces that slide, one for several
 # threads, one large enough for an ordering by a coarse graph), by SOLVER = TREE and by SOLVER = SKYLINE: the same results. TREE
 # with one thread and with two or three in turn, and for the decks of this folder 2, 3, 8 and 16, on whatever machine: the same bytes.
 # ALL=yes in the environment: two and three for every deck.
