@@ -244,8 +244,10 @@ contains
       layout%kept_entries = sum(filled)
       panel = touched_entries(p + r, p)
       update = touched_entries(r, r)
-      if (has_huge_pages()) panel = (p + r)*p
-      if (has_huge_pages()) update = r*r
+      if (has_huge_pages()) then
+         panel = (p + r)*p
+         update = r*r
+      end if
       ! two indices for each entry, or the whole front where that takes less memory
       layout%most_entries = most_standing(layout, panel, update, &
                                           sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*((p + r)*p + r**2))))

@@ -69,7 +69,6 @@ contains
       node = [(i, i = 1, graph%n), node]
 
       divided%n = size(node)
-      divided%with_masses = graph%with_masses
       allocate (divided%first(divided%n + 1))
       m = 0
       do i = 1, divided%n

@@ -68,8 +68,12 @@ contains
       allocate (self%in_joint(model%mesh%n_nodes), source=.false.)
       self%in_joint(pack(joined, joined > 0)) = .true.
       if (n_sections(model%mesh) > 0) self%in_joint(model%mesh%sections%node) = .true.
-      self%slides = find_sliding(model, joined)
-      if (graph%with_masses .or. .not. self%solves_once) self%slides = .false.
+      if (self%solves_once .and. .not. graph%with_masses) then
+         self%slides = find_sliding(model, joined)
+      else
+         allocate (self%slides, mold=model%freedoms%held)
+         self%slides = .false.
+      end if
       call choose_layout(graph, order, weight, self%in_joint, merge(count(self%slides, dim=1), 0, weight > 0), &
                          self%factorisations, self%layout, self%way)
       ! elements of refactored fronts are kept entry by entry with two indices, in number as for a regular mesh
