@@ -246,6 +246,8 @@ contains
          if (allocated(attempt%seen)) deallocate (attempt%seen)
          attempt%iteration = 0
          attempt%gain = 1.0_wp
+         attempt%unborne = 0.0_wp
+         attempt%n_short = 0
          attempt%n_slow = 0
          attempt%flips = 0
          attempt%largest_noise = 0.0_wp

@@ -30,6 +30,8 @@ module newton_iterations
    real(wp), parameter :: half = 0.5_wp                ! of the residual of the load: a guess that leaves more is poor
    real(wp), parameter :: near = 10.0_wp               ! times the tolerance: rounding that is allowed where no iteration falls
    real(wp), parameter :: worth_while = 0.1_wp         ! of its residual: a correction that leaves more is the last one
+   real(wp), parameter :: not_borne = 0.9_wp           ! of a residual that straight laws leave: they do not bear it
+   integer, parameter  :: most_short = 1               ! steps one behind the other that would lead FAR_AWAY
    real(wp), parameter :: away = 100.0_wp              ! times the initial residual: the iterations diverge
    real(wp), parameter :: far_off = 10.0_wp            ! times the residual of a guess: its first step is searched
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
@@ -85,7 +87,7 @@ contains
          end if
          if ((attempt%converged .and. (attempt%iteration > 0 .or. .not. attempt%renews)) .or. attempt%ends) exit
          anew = attempt%iteration == 0
-         if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. attempt%step < 1.0_wp
+         if (attempt%with_limits) anew = anew .or. is_exact(attempt)
          if (anew) call laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then
             call first_laws(model, now, analysis%increment <= 1, laws)
@@ -160,6 +162,7 @@ contains
          if (.not. next%size > far_away*max(now%size, analysis%tolerance)) exit
          attempt%step = shorter*attempt%step
       end do
+      attempt%n_short = merge(attempt%n_short + 1, 0, attempt%step < 1.0_wp)
       if (.not. attempt%moves) return
       attempt%moves = .false.
       attempt%move = 0.0_wp
@@ -263,7 +266,7 @@ contains
             call judge_limits(model, system, analysis, now, attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
-                           is_slow(attempt%sizes(:n))
+                           is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short
          end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)

@@ -44,7 +44,9 @@ module newton_trial
       real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
       real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
       real(wp) :: tolerance = tight_direction     !! residual that the next direction may leave, relative [-]
+      real(wp) :: unborne = 0.0_wp                !! part of the residual that the last direction has left [-]
       logical  :: coupled = .false.               !! the last direction was that of a coupled system
+      integer  :: n_short = 0                     !! the last steps that were shortened
       integer  :: n_slow = 0                      !! iterations that did not halve the residual
       integer, allocatable :: flips(:)            !! changes of branch of each interface element
       real(wp), allocatable :: best(:, :)         !! displacements of the least residual along straight laws, (dimension, retained) [length]

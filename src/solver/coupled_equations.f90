@@ -30,7 +30,7 @@ contains
    !! conditions hold: its steps beyond those of a new factor cost less than a factorisation, and they are no more than the average
    !! since it was made. Otherwise [k_b] + sum of K_INT is factorised. The residual is reduced below TOLERANCE times that of u = 0,
    !! or as far as the steps reach.
-   subroutine solve_coupled(model, k_int, rest, where, tolerance, system, u, failure)
+   subroutine solve_coupled(model, k_int, rest, where, tolerance, system, u, failure, left)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
       real(wp), intent(in)                  :: rest(:, :, :)  !! likewise
@@ -39,6 +39,7 @@ contains
       class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
+      real(wp), intent(out)                 :: left           !! part of the residual that U leaves [-]
       real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
       integer, allocatable :: changed(:)
       integer  :: i, none(0), symmetric_steps, steps
@@ -54,7 +55,7 @@ contains
             symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
             call follow_factor(tally)
             call find_changed(k_int, system, changed)
-            call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed)
+            call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed, part=left)
             if (failure%raised) return
             tally%extra = max(0, steps - symmetric_steps)
             tally%spent = tally%spent + tally%extra
@@ -67,7 +68,7 @@ contains
             tally%change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
          u = load
-         call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure, none)
+         call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure, none, part=left)
          tally%symmetric_steps = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
@@ -148,7 +149,7 @@ contains
    !! that have CHANGED since [k] was factorised would take a step each: their own forces become directions, all in one solution.
    !! Sources: Eisenstat, Elman, Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al.,
    !! SIAM J. Sci. Comput. 28 (2006) 1651-1674.
-   subroutine iterate_coupled(model, tolerance, most_steps, system, u, steps, failure, changed)
+   subroutine iterate_coupled(model, tolerance, most_steps, system, u, steps, failure, changed, part)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: tolerance
       integer, intent(in)                   :: most_steps
@@ -158,12 +159,14 @@ contains
       type(failure_type), intent(inout)     :: failure
       integer, intent(in), optional         :: changed(:) !! elements; absent: the products of the kept directions are those of this
                                                           !! system
+      real(wp), intent(out), optional       :: part !! of the residual that U leaves [-]
       logical  :: held(size(u, 1), size(u, 2))
       real(wp) :: left(size(u, 1), size(u, 2)), enough, new(size(u, 1), size(u, 2))
       integer  :: first, lasting
       logical  :: lasts
 
       steps = 0
+      if (present(part)) part = 0.0_wp
       held = system%held_now()
       left = merge(0.0_wp, u, held)
       u = 0.0_wp
@@ -197,6 +200,7 @@ contains
             call reduce_along(kept, first, 1, left, u)
             if (lasts) lasting = kept%n
          end do
+         if (present(part)) part = norm2(left)*tolerance/enough
          kept%n = min(kept%n, lasting) ! others would bring rounding to the next systems
       end associate
    end subroutine iterate_coupled
