@@ -66,7 +66,6 @@ module analysis_state
       logical  :: slides = .false.                  !! a joint slips at all its nodes that press
       real(wp) :: displacement = 0.0_wp             !! then: largest difference of a displacement, of the largest displacement [-]
       logical  :: unseen = .false.                  !! the way may hold what its points do not show
-      logical  :: unknown = .false.                 !! the end of the way of a part has not been found
    end type path_error_type
 
    !> The record of the last increment for output; no later result depends on it.

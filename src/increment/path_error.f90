@@ -155,7 +155,6 @@ contains
          if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
          surely = .true.
       end do
-      error%unknown = .not. found(2)
       ! iterations may have made a factor of their own, to which the directions of before do not belong
       if (system%coupled%n_factors == tally%n_factors) system%coupled = tally
    end subroutine measure_path

@@ -61,8 +61,7 @@ contains
          n = size(known)
          is_whole = analysis%record%is_whole
          error = analysis%record%path_error
-         if (is_within(error, n, e, analysis%path_tolerance) .and. .not. (n > 1 .and. error%unknown) .or. &
-             .not. falls .or. 2*n > most_parts) exit
+         if (is_within(error, n, e, analysis%path_tolerance) .or. .not. falls .or. 2*n > most_parts) exit
          call note_start(analysis, last)
          call go_to_start(first, analysis)
          call halve_parts(known)
@@ -88,7 +87,6 @@ contains
       type(path_error_type) :: error
       real(wp) :: ends(2)
       integer  :: k, n
-      logical  :: unknown
 
       allocate (way, source=analysis%states)
       n = size(known)
@@ -104,9 +102,7 @@ contains
          if (.not. attempt%converged) return
          known(k)%u = analysis%u
          if (n == 1) e = grading(model, start, analysis)
-         unknown = error%unknown
          call measure_path(model, system, start, ends, e, analysis, attempt, way, error, known(k)%half)
-         error%unknown = error%unknown .or. unknown ! the next part is measured from its end
          analysis%record%path_error = error
       end do
    end subroutine reach_in_parts

@@ -216,10 +216,8 @@ contains
    !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
    !! small stiffness where an element has none. solve_coupled adds the remaining part: what friction gains with the pressure, and
-   !! the antisymmetric part of an element whose stress turns while it slips. Of the small stiffness of an open element it leaves a
-   !! share, which falls with the residual: where hardly anything else holds a body, all of it would let the body come to rest by a
-   !! part of its way only in each iteration. A joint that is open at all nodes holds by such a share of its elastic shear: a body
-   !! that lies with clearance does not leave while others find their seats.
+   !! the antisymmetric part of an element whose stress turns while it slips. A joint that is open at all nodes holds by a share of its
+   !! elastic shear, which falls with the residual: a body that lies with clearance does not leave while others find their seats.
    !! Source: Levenberg-Marquardt method with a parameter that falls with the residual, Yamashita, Fukushima, Computing Suppl. 15
    !! (2001) 239-249.
    subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
@@ -231,7 +229,7 @@ contains
       type(straight_law), intent(inout)     :: laws(:) !! their tangents become those of the solved equations
       real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
-      real(wp) :: share ! of its elastic shear, and of its small stiffness, by which an open joint holds [-]
+      real(wp) :: share ! of its elastic shear by which an open joint holds [-]
       real(wp) :: least ! eigenvalue
       integer  :: i, k
       logical  :: apart(size(model%joints%list)), is_coupled
@@ -256,8 +254,7 @@ contains
                matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + stand_in_stiffness*elastic(k)
                if (apart(element%joint)) matrix(k, k, i) = max(matrix(k, k, i), share*elastic(k))
             end do
-            rest(:, :, i) = tangent - matrix(:, :, i)
-            rest(3, 3, i) = (1.0_wp - share)*rest(3, 3, i)
+            rest(:2, :, i) = tangent(:2, :) - matrix(:2, :, i)
             is_coupled = is_coupled .or. any(abs(rest(:2, 3, i)) > 0.0_wp) .or. &
                          abs(rest(1, 2, i)) > rounding_of_entries*maxval(abs(tangent(:2, :2)))
          end associate

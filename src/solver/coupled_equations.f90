@@ -39,7 +39,7 @@ contains
       class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
-      real(wp), intent(out)                 :: left           !! part of the residual that U leaves [-]
+      real(wp), intent(out), optional       :: left           !! part of the forces that U leaves [-]
       real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
       integer, allocatable :: changed(:)
       integer  :: i, none(0), symmetric_steps, steps
@@ -159,7 +159,7 @@ contains
       type(failure_type), intent(inout)     :: failure
       integer, intent(in), optional         :: changed(:) !! elements; absent: the products of the kept directions are those of this
                                                           !! system
-      real(wp), intent(out), optional       :: part !! of the residual that U leaves [-]
+      real(wp), intent(out), optional       :: part       !! of the forces that U leaves [-]
       logical  :: held(size(u, 1), size(u, 2))
       real(wp) :: left(size(u, 1), size(u, 2)), enough, new(size(u, 1), size(u, 2))
       integer  :: first, lasting

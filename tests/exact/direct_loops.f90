@@ -305,7 +305,7 @@ contains
    end subroutine go
 
    subroutine judge()
-      real(wp), parameter :: same_f = 1.0e-4_wp, same_d = 0.01_wp, no_loss = 2.0e-5_wp
+      real(wp), parameter :: same_f = 1.0e-4_wp, same_d = 0.01_wp, no_loss = 1.0e-5_wp
       integer, parameter  :: parts(6) = [60, 25, 11, 5, 2, 1]
       type(state_type) :: began, rest
       real(wp) :: alpha, d, f, found(8), k(3, 3), lost, omega(3), phi(3), point(6), q, shapes(3, 3)
