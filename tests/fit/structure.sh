@@ -4,7 +4,7 @@
 #
 #    structure.sh JOINTFIT JOINTFEM [FIRST LAST]
 #
-# FIRST LAST: the random structures of these numbers (default: 1 and 2; `make structures` runs 1 to 50).
+# FIRST LAST: the random structures of these numbers (default: 1 to 4; `make structures` runs 1 to 50).
 set -u
 export LC_ALL=C
 
@@ -12,7 +12,7 @@ if [ $# -lt 2 ] || [ ! -x "$1" ] || [ ! -x "$2" ]; then
    echo 'usage: structure.sh JOINTFIT JOINTFEM [FIRST LAST]' >&2
    exit 2
 fi
-jointfit=$(realpath "$1") jointfem=$(realpath "$2") first=${3:-1} last=${4:-2}
+jointfit=$(realpath "$1") jointfem=$(realpath "$2") first=${3:-1} last=${4:-4}
 here=$(cd "$(dirname "$0")" && pwd)
 input=$(cd "$here/../../input" && pwd)
 work=$(mktemp -d) || exit 2

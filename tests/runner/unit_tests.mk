@@ -23,6 +23,7 @@ UNIT_OBJECTS := $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.o)
 UNIT_SHARED  := $(sort $(wildcard tests/unit/*.f90))
 UNIT_HELPERS := $(UNIT_SHARED:tests/unit/%.f90=$(UNIT_FOLDER)/%.o)
 # Of results of a derived type with allocatable components the compiler says that bounds behind a null pointer are uninitialized
+# The tests themselves are compiled without optimisation: their compilation takes longer than their run
 UNIT_COMPILE  = $(FC) $(FFLAGS_CHECKED) -O0 -Wno-uninitialized -Wno-maybe-uninitialized -ffree-line-length-none -J$(UNIT_FOLDER)
 UNIT_CHECK    = $(AWK) -f $(UNIT_RUNNER)/pf_to_fortran.awk
 
