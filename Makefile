@@ -35,9 +35,11 @@ MODULES    = $(notdir $(SOURCES:.f90=))
 VPATH      = $(sort $(dir $(SOURCES)))
 
 RELEASE_OBJECTS = $(MODULES:%=$(BUILD)/release/%.o)
-CHECKED_OBJECTS = $(MODULES:%=$(BUILD)/checked/%.o)
-CHECKED_LIBRARY = $(BUILD)/checked/libjointfem.a
-CHECKED_MODULES = $(BUILD)/checked
+# the objects that the unit tests are linked with; `make unit-test CHECKED=release`: those of the program
+CHECKED         = checked
+CHECKED_MODULES = $(BUILD)/$(CHECKED)
+CHECKED_OBJECTS = $(MODULES:%=$(CHECKED_MODULES)/%.o)
+CHECKED_LIBRARY = $(CHECKED_MODULES)/libjointfem.a
 COMPARISONS     = $(sort $(wildcard tests/compare/*.f90))
 DEPENDENCIES    = awk -f tests/runner/dependencies.awk
 PF_FILES        = $(sort $(wildcard tests/unit/*.pf))
@@ -51,7 +53,7 @@ help:
 	@echo 'make mpi        the program on several processes, bin/jointfem_mpi; needs PETSc'
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
-	@echo 'make unit-test  only the unit tests; ONLY=test_joint_gaps: of that file'
+	@echo 'make unit-test  only the unit tests; ONLY=test_joint_gaps: of that file; CHECKED=release: of the program'
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make platforms  both commands of README.md on Debian 13, in a root folder made by debootstrap; as root'
