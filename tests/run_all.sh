@@ -79,6 +79,7 @@ part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'the tools of make mutants and make coverage' tests/source/selftest.sh
 # the long ones first
+part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/solver/restart.sh "$program" "$build/restart"
 part 'decks made at random' tests/random/fuzz.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
@@ -112,9 +113,6 @@ part 'decks to and from pyNastran' tests/programs/pynastran.sh "$program" "$buil
 part 'meshes of Abaqus and Salome by meshio' tests/programs/meshio.sh "$program" "$query" "$build/meshio"
 part 'pictures of a deck, flow charts' tests/programs/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
-everything_so_far
-# several processes use all cores themselves
-part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 everything_so_far
 echo '---- seconds of each part, and of processor time, in the order of their end'
 ls -tr "$build"/test/logs/*.seconds | while read -r seconds; do
