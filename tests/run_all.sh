@@ -4,13 +4,14 @@
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER [PROGRAM_MPI]
 #
 # CHECKED_PROGRAM is the program with run-time checks; it runs the bad decks and the random decks, so that an index out of bounds or
-# a floating-point exception is detected. A part without a last line `N passed, N failed` has failed. As many parts run side by side
-# as there are cores (TOGETHER=n: n of them), each in a folder of its own. WITHOUT in the environment: a pattern of titles to skip.
-# A part names what it skips in lines `skipped: WHAT: WHY`; these lines and the time of each part are printed before the sum.
+# a floating-point exception is detected. A part without a last line `N passed, N failed` has failed. One part more than there are
+# cores runs side by side, for parts wait too (TOGETHER=n: n of them), each in a folder of its own. WITHOUT in the environment: a
+# pattern of titles to skip. A part names what it skips in lines `skipped: WHAT: WHY`; these lines and the time of each part are
+# printed before the sum.
 set -u
 export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-1000} # what the program sets itself: saves each run a start
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
-together=${TOGETHER:-$(nproc)}
+together=${TOGETHER:-$(($(nproc) + 1))}
 passed=0 failed=0 begun=0 shown=0
 titles=()
 left_out=()
@@ -79,7 +80,9 @@ part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'the tools of make mutants and make coverage' tests/source/selftest.sh
 # the long ones first
-part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
+part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
+part 'laws from structures' tests/fit/structure.sh "$build/checked/jointfit" "$program"
+part 'TREE and SKYLINE, one thread and several' tests/solver/tree_skyline.sh "$program" "$query" "$build/solver"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/solver/restart.sh "$program" "$build/restart"
 part 'decks made at random' tests/random/fuzz.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
@@ -92,10 +95,8 @@ part 'decks on other processors' tests/compare/processors.sh "$program" "$compar
 part 'worked examples of the tour' tests/source/tour.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/compare/check.sh "$checked" "$compare" "$build/check-checked" \
    $(for deck in input/*.bdf; do basename "$deck" .bdf; done | grep -vx brake_reuss) # a minute more
-part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
 part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
 part 'decks, exercises and numbers of the manuals' tests/manual/pages.sh "$program" "$query" "$build/pages"
-part 'TREE and SKYLINE, one thread and several' tests/solver/tree_skyline.sh "$program" "$query" "$build/solver"
 part 'the kernel of OpenBLAS' tests/solver/kernel.sh "$program" "$build/kernel"
 part 'models that do not fit into the memory' tests/solver/memory.sh "$program" "$build/memory"
 part 'linear decks and their frequencies against CalculiX' tests/programs/calculix.sh "$program" "$build/calculix"
@@ -105,7 +106,6 @@ part 'STEP tends to NEWTON' tests/exact/run.sh "$program" "$query" "$build/conve
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'the queries of histories' tests/compare/test_query.sh "$query"
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
-part 'laws from structures' tests/fit/structure.sh "$build/checked/jointfit" "$program"
 part 'published surfaces' tests/fit/surfaces.sh "$program"
 part 'files for ParaView' tests/programs/vtu.sh "$program" "$build/vtu" "$build"/check/{post_on_plate,column_tetra10}.pvd
 part 'meshes from Gmsh' tests/programs/gmsh.sh "$program" "$query" "$build/gmsh"
@@ -113,6 +113,9 @@ part 'decks to and from pyNastran' tests/programs/pynastran.sh "$program" "$buil
 part 'meshes of Abaqus and Salome by meshio' tests/programs/meshio.sh "$program" "$query" "$build/meshio"
 part 'pictures of a deck, flow charts' tests/programs/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
+everything_so_far
+# several processes that wait for each other by asking: beside other parts they take ten times as long
+part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 everything_so_far
 echo '---- seconds of each part, and of processor time, in the order of their end'
 ls -tr "$build"/test/logs/*.seconds | while read -r seconds; do

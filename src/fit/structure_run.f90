@@ -21,7 +21,7 @@ module structure_run
    use model_build, only: build_model
    use newton_method, only: close_gaps, crosses_gaps, newton_increment, seat_joints
    use newton_trial, only: attempt_type, commit, trial_type
-   use stage_plan, only: factorisations_of
+   use stage_plan, only: factorisations_of, where_in_plan
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    use structure_answers, only: take_stage
    use text_tools, only: integer_text
@@ -166,7 +166,7 @@ contains
 
       call start_equations(structure%model, system, failure, structure%deck%control%solver, &
                            factorisations_of(structure%plan, structure%deck%control%method))
-      if (.not. failure%raised) call form_body_stiffness(structure%model, system, failure)
+      if (.not. failure%raised) call form_body_stiffness(structure%model, system, failure, where_in_plan(structure%plan, 1, 1))
    end subroutine form
 
    !> Run STRUCTURE with the first of the VALUES (parameters, runs) of its parameters, and beside it with the others, whose laws and

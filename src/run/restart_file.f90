@@ -211,7 +211,7 @@ contains
          if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
                                  solves_once=solves_once(plan, deck%control%method))
-            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+            if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure, where_in_plan(plan, next, 1))
             if (run%failure%raised) return
             call lock_again(model, analysis, system)
          end if
@@ -244,7 +244,7 @@ contains
       end if
       call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
                            solves_once=solves_once(plan, deck%control%method))
-      if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+      if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure, where_in_plan(plan, max(1, next), 1))
    end subroutine take_supports
 
    !> Change the supports and the equations of a history to those of the stage NEXT, where these are others, and say so in the

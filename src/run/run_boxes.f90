@@ -265,7 +265,7 @@ contains
       call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
                            solves_once=solves_once(plan, deck%control%method))
       call enter(run, phase_factor)
-      if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
+      if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure, where_in_plan(plan, 1, 1))
       if (run%failure%raised) return
       if (system%description%static_operations > 0.0_wp) call note_first_call()
       call enter(run, phase_write)

@@ -63,15 +63,20 @@ contains
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine start_equations
 
-   !> Form [k_b] of all bodies, bars included. A solver that condenses the bodies factorises their static part here.
-   subroutine form_body_stiffness(model, system, failure)
+   !> Form [k_b] of all bodies, bars included. A solver that condenses the bodies factorises their static part here; a direction without
+   !! stiffness is a failure that names the node. WHERE names the increment that needs them.
+   subroutine form_body_stiffness(model, system, failure, where)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)     :: failure
+      character(*), intent(in), optional    :: where
+      character(:), allocatable :: place
       integer :: fault, i
 
+      place = ''
+      if (present(where)) place = where//': '
       call system%form_bodies(model, fault)
-      call system%report_fault(model, fault, '', failure)
+      call system%report_fault(model, fault, place, failure)
       if (failure%raised) return
       do i = 1, n_bars(model%mesh)
          if (model%mesh%bars(i)%bolt == 0) call add_bar(model, i, system)
