@@ -13,7 +13,8 @@ export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-1000} # what the program sets itself: sa
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 # The same of the kernel: where OpenBLAS does not know the processor, the program starts itself anew with another one, 0.02 s a run
 mkdir -p "$build/test"
-kernel=$("$program" --times -q -o "$build/test" input/one_element.bdf 2>&1 | sed -n 's/.*: OpenBLAS kernel \([A-Za-z]*\); OpenBLAS itself takes .*/\1/p')
+kernel=$("$program" --times -q -o "$build/test" input/one_element.bdf 2>&1 |
+   sed -n 's/.*: OpenBLAS kernel \([A-Za-z]*\); OpenBLAS itself takes .*/\1/p')
 [ -z "$kernel" ] || export OPENBLAS_CORETYPE=$kernel
 together=${TOGETHER:-$(($(nproc) + 1))}
 passed=0 failed=0 begun=0 shown=0
