@@ -11,7 +11,8 @@
 set -u
 export GOMP_SPINCOUNT=${GOMP_SPINCOUNT:-1000} # what the program sets itself: saves each run a start
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
-# The same of the kernel: where OpenBLAS does not know the processor, the program starts itself anew with another one, 0.02 s a run
+# Where OpenBLAS does not know the processor, the program starts itself anew with another kernel. That kernel is set for all parts,
+# which saves each run 0.02 s; kernel.sh and processors.sh set their own.
 mkdir -p "$build/test"
 kernel=$("$program" --times -q -o "$build/test" input/one_element.bdf 2>&1 |
    sed -n 's/.*: OpenBLAS kernel \([A-Za-z]*\); OpenBLAS itself takes .*/\1/p')
@@ -119,7 +120,7 @@ part 'meshes of Abaqus and Salome by meshio' tests/programs/meshio.sh "$program"
 part 'pictures of a deck, flow charts' tests/programs/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 everything_so_far
-# several processes that wait for each other by asking: beside other parts they take ten times as long
+# alone: several processes ask again and again whether the others are ready, and take ten times as long beside other parts
 part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 everything_so_far
 echo '---- seconds of each part, and of processor time, in the order of their end'

@@ -54,8 +54,8 @@ endef
 export UNIT_REPORT
 
 # BLAS has one thread here, as the program gives it: several wait for each other by asking again and again, which takes many times
-# the work itself where other parts have the cores. Where OpenBLAS does not know the processor it has a kernel that takes five times as
-# long; the program starts itself anew with another one, as is done here.
+# the work itself where other parts have the cores. An OpenBLAS that does not know the processor takes a slow kernel, which the program
+# replaces; here every processor with AVX2 has the kernel Haswell.
 unit-test: $(UNIT_PROGRAM)
 	@written=$$(cat /dev/null $(UNIT_CHOSEN) | \
 	   $(AWK) 'tolower($$1) == "@test" { n++ } tolower($$1) == "@disable" { n-- } END { print n + 0 }'); \

@@ -78,7 +78,7 @@ decks() {
    mkdir -p "$work/tree"
    if [ "${ALL:-}" ]; then set -- input/*.bdf tests/solver/*.bdf
    else set -- input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
-      input/{meshed_apart,column_tetra10,one_element,normal_loop,frame,lap_sheets}.bdf tests/solver/{boxes,moved_newton}.bdf
+      input/{meshed_apart,column_tetra10,one_element,normal_loop,frame,lap_sheets,box_column}.bdf tests/solver/{boxes,moved_newton}.bdf
    fi
    for solver in TREE PETSC MUMPS; do decks_by $solver "$@"; done
    "$program" -q -o "$work/tree" "$work"/decks/TREE/*.bdf > "$work/tree.log" 2>&1 || fail "decks by TREE: $(tail -n 3 "$work/tree.log")"
