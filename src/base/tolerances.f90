@@ -134,6 +134,8 @@ module tolerances
    real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of the solution, energy norm: steps are as good as a factor
    real(wp), parameter :: sliding_stiffness = 1.0e-4_wp !! of the diagonal entry: its forces are small beside those of the joints
    real(wp), parameter :: dependent_product = 1.0e-10_wp !! of the product of [k] and a direction: rounding of products
+   real(wp), parameter :: equal_errors = 1.0e-6_wp   !! of an eigenvalue: errors of a factor that are alike
+   real(wp), parameter :: no_error = 1.0e-6_wp       !! square of the error of a factor in a direction: a step leaves nothing there
    real(wp), parameter :: dependent_energy = 1.0e-12_wp !! of the energy of a solution: the rest adds nothing to a guess
    real(wp), parameter :: rounding_of_directions = 1.0e-9_wp !! of the largest load: a direction that balances less is not kept
 

@@ -212,8 +212,9 @@ contains
       attempt%gain = first*(next%size/now%size)
    end subroutine correct
 
-   !> The forcing term: the relative residual that a direction may leave. It is GAIN, the part of the residual that the next step
-   !! of Newton's method should leave, but not below ENOUGH. Early in an increment it is large where a factorisation is DEAR.
+   !> The forcing term: the relative residual that a direction may leave, not below ENOUGH. It is GAIN, the part of the residual that the
+   !! next step of Newton's method should leave. Where a factorisation is DEAR more is left, since corrections with the same tangents
+   !! find the rest where the laws are nearly straight; elsewhere a better direction leads no further.
    !! Source: Eisenstat, Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2.
    pure real(wp) function tolerance_of(gain, size, enough, dear) result(tolerance)
       real(wp), intent(in) :: gain   !! see attempt_type [-]
@@ -221,7 +222,7 @@ contains
       real(wp), intent(in) :: enough !! [force]
       logical, intent(in)  :: dear
 
-      tolerance = min(merge(loose_direction, tight_direction, dear), gain)
+      tolerance = merge(loose_direction, min(tight_direction, gain), dear)
       tolerance = max(tolerance, min(tight_direction, 0.1_wp*enough/max(size, tiny(1.0_wp))), finest_direction)
    end function tolerance_of
 

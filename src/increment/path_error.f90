@@ -156,7 +156,11 @@ contains
          surely = .true.
       end do
       ! iterations may have made a factor of their own, to which the directions of before do not belong
-      if (system%coupled%n_factors == tally%n_factors) system%coupled = tally
+      if (system%coupled%n_factors == tally%n_factors) then
+         tally%extra = system%coupled%extra
+         tally%spent = system%coupled%spent
+         system%coupled = tally
+      end if
    end subroutine measure_path
 
    !> Whether the committed state TURNS back: if the part's CHANGE of load went on, an element on the loading branch would be let go by

@@ -95,9 +95,14 @@ contains
       class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)     !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
-      integer :: steps
+      integer :: beyond, steps
 
       call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure)
+      associate (tally => system%coupled)
+         beyond = max(0, steps - nint(tally%symmetric_steps*(-log10(tolerance))))
+         tally%extra = tally%extra + beyond
+         tally%spent = tally%spent + beyond
+      end associate
    end subroutine solve_coupled_again
 
    !> Replace every column of forces U by the displacements under the stiffness of the last solve_coupled, up to a share TOLERANCE of
@@ -190,7 +195,9 @@ contains
             new = left
             call solve_equations(model, system, left, new, failure, digits=digits)
             if (failure%raised) return
+            if (kept%n == size(kept%u, 2)) kept%n = min(kept%n, lasting)
             call make_room(kept, 1)
+            lasting = min(lasting, kept%n)
             kept%n = kept%n + 1
             first = kept%n
             kept%u(:, first) = reshape(new, [size(u)])

@@ -54,7 +54,7 @@ module equation_solver
       integer :: price = 0                           !! steps that cost as much as a factorisation; 0: never worth while
       logical :: serves = .false.                    !! whether a factor of the present bodies exists
       real(wp) :: symmetric_steps = 0.0_wp           !! steps per digit with the factor of the system's own symmetric part
-      integer :: extra = 0                           !! steps beyond these in the last system
+      integer :: extra = 0                           !! steps beyond these in the last system, with its corrections
       integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
       integer :: n_factors = 0                       !! how often a stiffness was formed so far
       integer :: kept_for = 0                        !! of these, the one whose directions are KEPT; 0: none

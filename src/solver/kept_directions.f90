@@ -4,16 +4,15 @@
 !! Source: products are orthogonalised as blocks, twice: Barlow, Smoktunowicz, Numer. Math. 123 (2013) 395-423; among themselves by
 !! Cholesky's factor of their Gram matrix, twice: Fukaya et al., SIAM J. Sci. Comput. 42 (2020) A477-A503.
 module kept_directions
-   use blas_lapack, only: dgemm, dgemv, dpotrf, dtrsm
+   use blas_lapack, only: dgemm, dgemv, dpotrf, dsygv, dtrsm
    use kinds, only: wp
-   use tolerances, only: dependent_energy, dependent_product
+   use tolerances, only: dependent_energy, dependent_product, equal_errors, no_error
    implicit none
    private
 
    public :: start_directions, make_room, orthonormalise, reduce_along
 
    integer, parameter :: chunk = 4096 ! rows
-   integer, parameter :: at_once = 8  ! one part of so many of the room is made free at a time
 
    type, public :: direction_set
       integer :: n = 0                          !! directions
@@ -32,22 +31,54 @@ contains
       allocate (set%u(rows, room), set%force(rows, room), set%product(rows, room))
    end subroutine start_directions
 
-   !> Drop the oldest directions, several at once, where there is no room for MORE.
+   !> Where there is no room for MORE directions, keep half of the room at most: those combinations along which the factorised stiffness
+   !! errs most, the eigenvectors of the largest eigenvalues of (P - F)^T (P - F), P the products and F the forces. Where F = P nearly a
+   !! step with the factor does as well. Of nearly equal eigenvalues all are kept, or none: last bits do not choose.
+   !! Source: de Sturler, SIAM J. Numer. Anal. 36 (1999) 864-889, who keeps what hinders convergence most.
    subroutine make_room(set, more)
-      type(direction_set), intent(inout) :: set
+      type(direction_set), intent(inout) :: set  !! its products orthonormal
       integer, intent(in)                :: more
-      integer :: j, old
+      real(wp), allocatable :: combination(:, :), error(:, :), gram(:, :), values(:), work(:)
+      integer :: fault, first, j, n, rows
 
-      old = set%n + more - size(set%u, 2)
-      if (old <= 0) return
-      old = min(set%n, max(old, size(set%u, 2)/at_once))
-      do j = old + 1, set%n
-         set%u(:, j - old) = set%u(:, j)
-         set%force(:, j - old) = set%force(:, j)
-         set%product(:, j - old) = set%product(:, j)
+      n = set%n
+      if (n + more <= size(set%u, 2)) return
+      rows = size(set%u, 1)
+      allocate (values(n), work(34*n))
+      error = set%product(:, :n) - set%force(:, :n)
+      combination = inner_products(rows, n, n, error, error)
+      gram = inner_products(rows, n, n, set%product, set%product)
+      call dsygv(1, 'V', 'L', n, combination, n, gram, n, values, work, size(work), fault)
+      first = n + 1 - max(0, min(n, size(set%u, 2)/2, size(set%u, 2) - more))
+      do j = first, n
+         if (values(j) > max(no_error, (1.0_wp + equal_errors)*values(max(1, j - 1)))) exit
       end do
-      set%n = set%n - old
+      first = j
+      set%n = n + 1 - first
+      if (fault /= 0) set%n = 0 ! products that are not orthonormal
+      call combine(rows, n, set%n, combination(:, first:), set%u)
+      call combine(rows, n, set%n, combination(:, first:), set%force)
+      call combine(rows, n, set%n, combination(:, first:), set%product)
    end subroutine make_room
+
+   !> Replace the N columns of A by the M columns of A C.
+   subroutine combine(rows, n, m, c, a)
+      integer, intent(in)     :: rows, n, m
+      real(wp), intent(in)    :: c(n, m)
+      real(wp), intent(inout) :: a(rows, n)
+      real(wp), allocatable :: part(:, :)
+      integer :: k, row
+
+      !$omp parallel do default(shared) private(k, part) if(rows > chunk)
+      do row = 1, rows, chunk
+         k = min(chunk, rows - row + 1)
+         allocate (part(k, m))
+         call dgemm('N', 'N', k, m, n, 1.0_wp, a(row, 1), rows, c, n, 0.0_wp, part, k)
+         a(row:row + k - 1, :m) = part
+         deallocate (part)
+      end do
+      !$omp end parallel do
+   end subroutine combine
 
    !> Make the products of the directions from FIRST on orthonormal, to each other and to those before. Directions of whose products
    !! nothing but rounding remains are left out.
