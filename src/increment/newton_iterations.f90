@@ -214,7 +214,7 @@ contains
 
    !> The forcing term: the relative residual that a direction may leave, not below ENOUGH. It is GAIN, the part of the residual that the
    !! next step of Newton's method should leave. Where a factorisation is DEAR more is left, since corrections with the same tangents
-   !! find the rest where the laws are nearly straight; elsewhere a better direction leads no further.
+   !! find the rest where the laws are nearly straight; where they are not, a finer direction would not leave less.
    !! Source: Eisenstat, Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2.
    pure real(wp) function tolerance_of(gain, size, enough, dear) result(tolerance)
       real(wp), intent(in) :: gain   !! see attempt_type [-]

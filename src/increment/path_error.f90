@@ -155,7 +155,7 @@ contains
          if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
          surely = .true.
       end do
-      ! iterations may have made a factor of their own, to which the directions of before do not belong
+      ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts
       if (system%coupled%n_factors == tally%n_factors) then
          tally%extra = system%coupled%extra
          tally%spent = system%coupled%spent

@@ -40,19 +40,18 @@ contains
       real(wp), intent(inout)               :: u(:, :)        !! (dimension, retained) [force] on entry, [length] on return
       type(failure_type), intent(inout)     :: failure
       real(wp), intent(out), optional       :: left           !! part of the forces that U leaves [-]
-      real(wp) :: digits_wanted, load(size(u, 1), size(u, 2))
+      real(wp) :: load(size(u, 1), size(u, 2))
       integer, allocatable :: changed(:)
       integer  :: i, none(0), symmetric_steps, steps
 
       if (.not. allocated(system%coupled%change)) allocate (system%coupled%change, mold=rest)
       associate (tally => system%coupled)
-         digits_wanted = -log10(tolerance)
          load = u
          if (tally%serves .and. tally%price > 0 .and. tally%extra*tally%solved <= tally%spent) then
             do i = 1, size(rest, 3)
                tally%change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
-            symmetric_steps = nint(tally%symmetric_steps*digits_wanted)
+            symmetric_steps = steps_of_own_factor(tally, tolerance)
             call follow_factor(tally)
             call find_changed(k_int, system, changed)
             call iterate_coupled(model, tolerance, symmetric_steps + tally%price, system, u, steps, failure, changed, part=left)
@@ -69,12 +68,20 @@ contains
          end do
          u = load
          call iterate_coupled(model, tolerance, tally%most_steps, system, u, steps, failure, none, part=left)
-         tally%symmetric_steps = steps/digits_wanted
+         tally%symmetric_steps = steps/(-log10(tolerance))
          tally%extra = 0
          tally%spent = tally%price
          tally%solved = 1
       end associate
    end subroutine solve_coupled
+
+   !> The steps to TOLERANCE with the factor of the system's own symmetric part.
+   pure integer function steps_of_own_factor(tally, tolerance) result(steps)
+      type(coupled_tally), intent(in) :: tally
+      real(wp), intent(in)            :: tolerance
+
+      steps = nint(tally%symmetric_steps*(-log10(tolerance)))
+   end function steps_of_own_factor
 
    !> Forget the directions where they are those of another factor.
    subroutine follow_factor(tally)
@@ -99,7 +106,7 @@ contains
 
       call iterate_coupled(model, tolerance, system%coupled%most_steps, system, u, steps, failure)
       associate (tally => system%coupled)
-         beyond = max(0, steps - nint(tally%symmetric_steps*(-log10(tolerance))))
+         beyond = max(0, steps - steps_of_own_factor(tally, tolerance))
          tally%extra = tally%extra + beyond
          tally%spent = tally%spent + beyond
       end associate
@@ -195,7 +202,7 @@ contains
             new = left
             call solve_equations(model, system, left, new, failure, digits=digits)
             if (failure%raised) return
-            if (kept%n == size(kept%u, 2)) kept%n = min(kept%n, lasting)
+            if (kept%n == size(kept%u, 2)) kept%n = min(kept%n, lasting) ! rounding is not combined with the others
             call make_room(kept, 1)
             lasting = min(lasting, kept%n)
             kept%n = kept%n + 1

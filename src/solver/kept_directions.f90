@@ -49,13 +49,16 @@ contains
       combination = inner_products(rows, n, n, error, error)
       gram = inner_products(rows, n, n, set%product, set%product)
       call dsygv(1, 'V', 'L', n, combination, n, gram, n, values, work, size(work), fault)
+      if (fault /= 0) then ! products that are not orthonormal
+         set%n = 0
+         return
+      end if
       first = n + 1 - max(0, min(n, size(set%u, 2)/2, size(set%u, 2) - more))
       do j = first, n
          if (values(j) > max(no_error, (1.0_wp + equal_errors)*values(max(1, j - 1)))) exit
       end do
       first = j
       set%n = n + 1 - first
-      if (fault /= 0) set%n = 0 ! products that are not orthonormal
       call combine(rows, n, set%n, combination(:, first:), set%u)
       call combine(rows, n, set%n, combination(:, first:), set%force)
       call combine(rows, n, set%n, combination(:, first:), set%product)
