@@ -8,7 +8,7 @@ module increment_parts
    use equations, only: equation_system
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_iterations, only: iterate
+   use newton_iterations, only: iterate, never_falls
    use newton_trial, only: attempt_type, most_iterations
    use tolerances, only: least_share
    implicit none
@@ -213,6 +213,7 @@ contains
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
       integer  :: k, ways(4), way
+      logical  :: fell
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
@@ -222,6 +223,7 @@ contains
       first = 0.0_wp
       attempt%converged = .false.
       attempt%runs = .false.
+      fell = .true.
       attempt%n_moving = 0
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (is_given_up(analysis)) then
@@ -234,6 +236,7 @@ contains
       do k = 1, size(ways)
          way = ways(k)
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
+         if (way == straight .and. .not. fell) cycle
          if (attempt%only > 0 .and. way /= attempt%only .and. .not. (attempt%only == quick .and. way < sticking)) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
@@ -257,7 +260,8 @@ contains
          if (way == from_best) u = attempt%best
          call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
-         if (way == straight) first = attempt%sizes(0)
+         if (way < from_best) first = attempt%at_start
+         fell = way /= extrapolated .or. .not. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
          if (allocated(u)) deallocate (u)
       end do

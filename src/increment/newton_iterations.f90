@@ -12,6 +12,7 @@ module newton_iterations
    use nonlinear_elimination, only: eliminate_few
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
+   use rigid_seating, only: seat_parts
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, forces_at, laws_at, loose_joints, &
                             next_laws, residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
@@ -19,10 +20,11 @@ module newton_iterations
    implicit none
    private
 
-   public :: iterate, tolerance_of
+   public :: iterate, never_falls, tolerance_of
 
    integer, parameter  :: most_corrections = 5
    integer, parameter  :: quick = 8                    ! iterations along straight laws that must leave less than WORTH_WHILE
+   integer, parameter  :: to_fall = 7                  ! iterations along straight laws of which one must leave less than their first
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    integer, parameter  :: still = 3                    ! residuals one behind the other: they stand still
@@ -36,6 +38,7 @@ module newton_iterations
    real(wp), parameter :: far_off = 10.0_wp            ! times the residual of a guess: its first step is searched
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
+   real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a step to the least energy that is shorter has touched something
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
 contains
@@ -67,6 +70,7 @@ contains
       else
          call evaluate_at(model, system, attempt, analysis, analysis%u, now)
       end if
+      attempt%at_start = merge(huge(1.0_wp), now%size, attempt%moves)
       if (attempt%with_limits) call give_first_limits(model, system, analysis, attempt, now)
       allocate (next, source=now)
       if (attempt%growth > 0.0_wp) then
@@ -134,7 +138,8 @@ contains
    end subroutine iterate
 
    !> Go from NOW along DIRECTION to NEXT: to the least energy under given limits of friction, by a line search where the caller
-   !! SEARCHES, or by a full step, which is shortened only where it leads FAR_AWAY: a body that hardly anything holds. The step that
+   !! SEARCHES, or by a full step, which is shortened only where it leads FAR_AWAY: a body that hardly anything holds. Where the least
+   !! energy is near, because something has touched, the parts go on as rigid bodies. The step that
    !! moves the supports is a full one; from there on the support forces are the reference load.
    subroutine advance(model, system, analysis, attempt, now, direction, searches, next)
       type(model_type), intent(in)       :: model
@@ -144,10 +149,12 @@ contains
       type(trial_type), intent(in)       :: now
       real(wp), intent(in)               :: direction(:, :)
       logical, intent(in)                :: searches
-      type(trial_type), intent(inout)    :: next
+      type(trial_type), allocatable, intent(inout) :: next
 
       if (allocated(attempt%seen) .and. .not. attempt%moves) then
          call minimise(model, system, analysis, attempt, now, direction, next)
+         if (attempt%step > 0.0_wp .and. attempt%step < to_a_seat .and. .not. attempt%runs) &
+            call seat_parts(model, system, analysis, attempt, next)
          attempt%n_still = merge(0, attempt%n_still + 1, attempt%step > 0.0_wp)
          return
       end if
@@ -267,7 +274,8 @@ contains
             call judge_limits(model, system, analysis, now, attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
-                           is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short
+                           is_slow(attempt%sizes(:n)) .or. never_falls(attempt%sizes(:n)) .or. &
+                           attempt%unborne > not_borne .or. attempt%n_short > most_short
          end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)
@@ -323,6 +331,14 @@ contains
       is_slow = n > quick + 1
       if (is_slow) is_slow = minval(sizes(n - quick + 1:)) > worth_while*sizes(n - quick)
    end function is_slow
+
+   !> Whether TO_FALL iterations, or more, with residuals SIZES have left no less than the first.
+   pure logical function never_falls(sizes)
+      real(wp), intent(in) :: sizes(0:) !! [force]
+
+      never_falls = size(sizes) > to_fall
+      if (never_falls) never_falls = minval(sizes(1:)) > sizes(0)
+   end function never_falls
 
    !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on
    !! the path of the iterations, which rounding influences. It is accepted where it reduces the residual.

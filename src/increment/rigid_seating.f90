@@ -1,0 +1,153 @@
+!> Bodies that look for their seats. A body that hardly anything holds goes along the direction of an iteration until its first
+!! interface elements touch, perhaps a thousandth of the way, and the next ones would come one by one, an iteration each. Here the
+!! parts of the structure go on as rigid bodies, to the least energy under the given limits of friction. With the rigid-body motions
+!! [B] of the parts, the movements [J] of the interface elements and their tangents [T], Newton's method solves
+!!
+!!      [B]^T ([K] + [J]^T [T] [J]) [B] {a} = [B]^T {r}
+!!
+!! for a direction [B]{a}, which a line search follows; no other matrix is factorised. What the parts need as elastic bodies the
+!! iterations find.
+!! Source: the motions are the coarse space of R. A. Nicolaides, SIAM J. Numer. Anal. 24 (1987) 355-365.
+module rigid_seating
+   use analysis_state, only: analysis_type
+   use blas_lapack, only: dposv
+   use equations, only: equation_system, forces_in_bodies
+   use interface_operator, only: joint_movement
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: attempt_type, search, swap, trial_type
+   use tolerances, only: stand_in_stiffness
+   use unknowns, only: motions_of, n_motions
+   implicit none
+   private
+
+   public :: seat_parts
+
+   integer, parameter  :: most_steps = 25    ! of Newton's method
+   real(wp), parameter :: seated = 1.0e-3_wp ! of the first forces on the motions: the parts have found their seats
+
+   !> The rigid-body motions of the parts that have interface elements, each scaled to 1 where it moves most.
+   type :: motions_type
+      integer, allocatable  :: part_of(:)   ! (retained)
+      real(wp), allocatable :: u(:, :, :)   ! (dimension, motions of a part, retained), 0 at supports
+      integer, allocatable  :: part(:)      ! (motions)
+      integer, allocatable  :: number(:)    ! (motions) which of the motions of this part
+      real(wp), allocatable :: w(:, :, :)   ! (3, motions, elements): [J] [B]
+      real(wp), allocatable :: k(:, :)      ! (motions, motions): [B]^T [K] [B] [force/length]
+   end type motions_type
+
+contains
+
+   !> Go on from NEXT by rigid-body motions of the parts to the least energy under the given limits of ATTEMPT, or as far as Newton's
+   !! method leads.
+   subroutine seat_parts(model, system, analysis, attempt, next)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(inout)  :: attempt !! its STEP stays that of the iteration
+      type(trial_type), allocatable, intent(inout) :: next
+      type(motions_type) :: motions
+      type(trial_type), allocatable :: there
+      real(wp), allocatable :: a(:), direction(:, :), matrix(:, :)
+      real(wp) :: first, step, work
+      integer  :: i, info, k, n
+
+      call find_motions(model, system, analysis, motions)
+      n = size(motions%part)
+      if (n == 0) return
+      step = attempt%step
+      allocate (a(n), matrix(n, n), direction(size(next%u, 1), size(next%u, 2)))
+      allocate (there, source=next)
+      first = 0.0_wp
+      do i = 1, most_steps
+         a = [(sum(motion(motions, k)*next%residual), k = 1, n)]
+         if (i == 1) first = norm2(a)
+         if (.not. norm2(a) > seated*first) exit
+         matrix = stiffness_of(motions, next%tangent)
+         call dposv('L', n, 1, matrix, n, a, n, info)
+         if (info /= 0) exit
+         direction = 0.0_wp
+         do k = 1, n
+            direction = direction + a(k)*motion(motions, k)
+         end do
+         work = sum(next%residual*direction)
+         call search(model, system, attempt, analysis, next, direction, there)
+         if (.not. there%size < huge(1.0_wp)) exit
+         if (.not. abs(sum(there%residual*direction)) < work) exit
+         call swap(next, there)
+      end do
+      attempt%step = step
+   end subroutine seat_parts
+
+   !> The MOTIONS, the movements of the interface elements by them and what springs and supports have against them.
+   subroutine find_motions(model, system, analysis, motions)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(motions_type), intent(out)    :: motions
+      real(wp), allocatable :: force(:, :), u(:, :), w(:, :, :)
+      integer, allocatable  :: moving(:)
+      real(wp) :: largest
+      integer  :: i, k, m, n
+
+      m = n_motions(model%mesh%dimension)
+      n = m*model%freedoms%n_parts
+      motions%part_of = model%freedoms%part(system%retained)
+      allocate (motions%u(model%mesh%dimension, m, size(system%retained)))
+      do i = 1, size(system%retained)
+         motions%u(:, :, i) = merge(0.0_wp, motions_of(model, system%retained(i)), spread(analysis%held(:, i), 2, m))
+      end do
+      allocate (motions%part, source=[((k - 1)/m + 1, k = 1, n)])
+      allocate (motions%number, source=[(modulo(k - 1, m) + 1, k = 1, n)])
+      allocate (w(3, n, size(system%interface)), u(model%mesh%dimension, size(system%retained)))
+      do k = 1, n
+         u = motion(motions, k)
+         largest = max(maxval(abs(u)), tiny(1.0_wp))
+         do i = 1, size(system%retained)
+            if (motions%part_of(i) == motions%part(k)) &
+               motions%u(:, motions%number(k), i) = motions%u(:, motions%number(k), i)/largest
+         end do
+         w(:, k, :) = reshape([(joint_movement(system%interface(i), u/largest), i = 1, size(w, 3))], [3, size(w, 3)])
+      end do
+      allocate (moving, source=pack([(k, k = 1, n)], [(any(abs(w(:, k, :)) > 0.0_wp), k = 1, n)]))
+      motions%part = motions%part(moving)
+      motions%number = motions%number(moving)
+      motions%w = w(:, moving, :)
+      n = size(moving)
+      allocate (motions%k(n, n))
+      allocate (force, mold=u)
+      do k = 1, n
+         call forces_in_bodies(system, motion(motions, k), force)
+         motions%k(:, k) = [(sum(motion(motions, i)*force), i = 1, n)]
+      end do
+   end subroutine find_motions
+
+   !> The field of displacements of motion K: (dimension, retained).
+   pure function motion(motions, k) result(u)
+      type(motions_type), intent(in) :: motions
+      integer, intent(in)            :: k
+      real(wp) :: u(size(motions%u, 1), size(motions%u, 3))
+
+      u = merge(motions%u(:, motions%number(k), :), 0.0_wp, spread(motions%part_of == motions%part(k), 1, size(u, 1)))
+   end function motion
+
+   !> The matrix of Newton's method with the TANGENTs of the interface elements. Where none of them holds a part, all do a little.
+   pure function stiffness_of(motions, tangent) result(a)
+      type(motions_type), intent(in) :: motions
+      real(wp), intent(in)           :: tangent(:, :, :) !! (3, 3, elements) [force/length]
+      real(wp) :: a(size(motions%k, 1), size(motions%k, 1)), t(3, 3)
+      integer  :: axis, i
+
+      a = motions%k
+      do i = 1, size(tangent, 3)
+         t = 0.5_wp*(tangent(:, :, i) + transpose(tangent(:, :, i)))
+         do axis = 1, 3
+            t(axis, axis) = t(axis, axis) + stand_in_stiffness*maxval(tangent)
+         end do
+         associate (w => motions%w(:, :, i))
+            a = a + matmul(transpose(w), matmul(t, w))
+         end associate
+      end do
+   end function stiffness_of
+
+end module rigid_seating
