@@ -8,13 +8,13 @@ module increment_parts
    use equations, only: equation_system
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_iterations, only: iterate, never_falls
+   use newton_iterations, only: iterate
    use newton_trial, only: attempt_type, most_iterations
    use tolerances, only: least_share
    implicit none
    private
 
-   public :: reach, try_part, is_given_up
+   public :: reach, try_part, is_given_up, never_falls
 
    integer, parameter  :: most_halvings = 12
    integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
@@ -23,6 +23,7 @@ module increment_parts
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
    integer, parameter  :: quick = 5               ! straight, then from_best with few iterations
    integer, parameter  :: most_of_quick = 8       ! these
+   integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
    integer, parameter  :: clear = 2               ! steps along which a body moves on
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
@@ -198,10 +199,10 @@ contains
    end subroutine approach_limit
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
-   !! extrapolated last increment if this one continues it, otherwise from the committed state. If they do not lead quickly to
-   !! equilibrium, the attempt is repeated with given limits of friction: from the best trial of the straight laws if this has left
-   !! less than their first, and if that fails too, from a structure in which nothing slips. This last way is the first one where the
-   !! part is expected to be above the limit load, as it shows this in fewer iterations.
+   !! extrapolated last increment if this one continues it, otherwise, or where that leads nowhere in few iterations, from the committed
+   !! state. If they do not lead quickly to equilibrium, the attempt is repeated with given limits of friction: from the best trial of
+   !! the straight laws if this has left less than their first, and if that fails too, from a structure in which nothing slips. This
+   !! last way is the first one where the part is expected to be above the limit load, as it shows this in fewer iterations.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -213,7 +214,7 @@ contains
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
       integer  :: k, ways(4), way
-      logical  :: fell
+      logical  :: stays ! the extrapolation has never left less than its first residual
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
@@ -223,7 +224,7 @@ contains
       first = 0.0_wp
       attempt%converged = .false.
       attempt%runs = .false.
-      fell = .true.
+      stays = .false.
       attempt%n_moving = 0
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (is_given_up(analysis)) then
@@ -236,7 +237,7 @@ contains
       do k = 1, size(ways)
          way = ways(k)
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
-         if (way == straight .and. .not. fell) cycle
+         if (way == straight .and. stays) cycle
          if (attempt%only > 0 .and. way /= attempt%only .and. .not. (attempt%only == quick .and. way < sticking)) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
@@ -261,7 +262,7 @@ contains
          call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
          if (way < from_best) first = attempt%at_start
-         fell = way /= extrapolated .or. .not. never_falls(attempt%sizes(:attempt%iteration))
+         stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
          if (allocated(u)) deallocate (u)
       end do
@@ -280,6 +281,14 @@ contains
 
       is_clear = attempt%n_moving >= clear .and. (attempt%bearable > below_limit .or. attempt%bearable <= least_share)
    end function is_clear
+
+   !> Whether TO_FALL iterations, or more, with residuals SIZES have left no less than the first.
+   pure logical function never_falls(sizes)
+      real(wp), intent(in) :: sizes(0:) !! [force]
+
+      never_falls = size(sizes) > to_fall
+      if (never_falls) never_falls = minval(sizes(1:)) > sizes(0)
+   end function never_falls
 
    !> Whether the increment has taken more iterations than one that ends.
    pure logical function is_given_up(analysis)

@@ -20,11 +20,10 @@ module newton_iterations
    implicit none
    private
 
-   public :: iterate, never_falls, tolerance_of
+   public :: iterate, tolerance_of
 
    integer, parameter  :: most_corrections = 5
    integer, parameter  :: quick = 8                    ! iterations along straight laws that must leave less than WORTH_WHILE
-   integer, parameter  :: to_fall = 7                  ! iterations along straight laws of which one must leave less than their first
    integer, parameter  :: patience = 8                 ! iterations that must leave less than the same number before them
    real(wp), parameter :: progress = 0.9_wp            ! of it: the required reduction
    integer, parameter  :: still = 3                    ! residuals one behind the other: they stand still
@@ -105,10 +104,10 @@ contains
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
-         if (.not. (moves .or. attempt%with_limits .or. attempt%is_limited)) then ! near a limit load this takes longer
+         if (.not. (moves .or. attempt%runs .or. attempt%is_limited)) then ! near a limit load this takes longer
             if (attempt%iteration > 0) then
                call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
-            else if (guessed .and. next%size > far_off*now%size) then ! its laws are the tangents at NOW
+            else if (guessed .and. .not. attempt%with_limits .and. next%size > far_off*now%size) then ! laws: the tangents at NOW
                call search(model, system, attempt, analysis, now, direction, next)
             end if
          end if
@@ -274,8 +273,7 @@ contains
             call judge_limits(model, system, analysis, now, attempt)
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
-                           is_slow(attempt%sizes(:n)) .or. never_falls(attempt%sizes(:n)) .or. &
-                           attempt%unborne > not_borne .or. attempt%n_short > most_short
+                           is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short
          end if
          if (attempt%ends) attempt%converged = attempt%converged .or. &
                                                now%size <= idle*max(attempt%seat_force, analysis%loose_force)
@@ -331,14 +329,6 @@ contains
       is_slow = n > quick + 1
       if (is_slow) is_slow = minval(sizes(n - quick + 1:)) > worth_while*sizes(n - quick)
    end function is_slow
-
-   !> Whether TO_FALL iterations, or more, with residuals SIZES have left no less than the first.
-   pure logical function never_falls(sizes)
-      real(wp), intent(in) :: sizes(0:) !! [force]
-
-      never_falls = size(sizes) > to_fall
-      if (never_falls) never_falls = minval(sizes(1:)) > sizes(0)
-   end function never_falls
 
    !> One iteration more from the converged NOW. It squares the residual that TOL has left, so that the state does not depend on
    !! the path of the iterations, which rounding influences. It is accepted where it reduces the residual.

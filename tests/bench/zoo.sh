@@ -131,8 +131,8 @@ END_OF_CASE
 }
 
 # A line of the table, from what the program showed ($1.shown), the listing and the answers, with head $2, status $3, seconds $4, laws
-# $5. The convergence history of the listing holds the last attempt of an increment only; the summary counts all iterations of the run,
-# the numbers shown those of an increment (not every iteration is shown: MOST is a lower bound).
+# $5. The convergence history of the listing holds all attempts of an increment that ended, and says how many rows it leaves out; the
+# summary counts all iterations of the run, the numbers shown those of an increment that did not end (not every one is shown).
 row() {
    cat "$1.shown" "$1.summary" "$1.out" "$1.said" 2> /dev/null | awk -v head="$2" -v status="$3" -v seconds="$4" -v laws="${5:--}" '
       /^stage [0-9]+, increment [0-9]+, iteration [0-9]+:/ { split($0, w, "[ ,:]+"); see(w[2] "." w[4], w[6]); next }
@@ -140,6 +140,7 @@ row() {
                         getline; split($0, w, ","); total = w[at] }
       /^ CONVERGENCE HISTORY, STAGE / { on = 1; stage = $4 + 0; next }
       /^ [A-Z]/ { on = 0 }
+      on && $2 == "..." { key = stage "." $1; count[key] += $3; next }
       on && $1 + 0 > 0 && NF >= 6 { key = stage "." $1; count[key]++; see(key, count[key]); if ($2 > 1) parts[key] = 1 }
       $1 == "LOADS" { for (i = 3; i <= 5; i++) if (size($i) > force) force = size($i) }
       $1 == "LEFT"  { for (i = 2; i <= 4; i++) if (size($i) > left) left = size($i) }
