@@ -26,20 +26,26 @@ module rigid_seating
    integer, parameter  :: most_steps = 25    ! of Newton's method
    real(wp), parameter :: seated = 1.0e-3_wp ! of the first forces on the motions: the parts have found their seats
 
+   !> How the motions move an interface element: those of the parts at its ends alone.
+   type :: element_motions
+      integer, allocatable  :: motion(:)
+      real(wp), allocatable :: w(:, :)      ! (3, size(motion)): [J] [B]
+   end type element_motions
+
    !> The rigid-body motions of the parts that have interface elements, each scaled to 1 where it moves most.
    type :: motions_type
       integer, allocatable  :: part_of(:)   ! (retained)
       real(wp), allocatable :: u(:, :, :)   ! (dimension, motions of a part, retained), 0 at supports
       integer, allocatable  :: part(:)      ! (motions)
       integer, allocatable  :: number(:)    ! (motions) which of the motions of this part
-      real(wp), allocatable :: w(:, :, :)   ! (3, motions, elements): [J] [B]
+      type(element_motions), allocatable :: at(:) ! (elements)
       real(wp), allocatable :: k(:, :)      ! (motions, motions): [B]^T [K] [B] [force/length]
    end type motions_type
 
 contains
 
-   !> Go on from NEXT by rigid-body motions of the parts to the least energy under the given limits of ATTEMPT, or as far as Newton's
-   !! method leads.
+   !> Go on from NEXT by rigid-body motions of the parts to the least energy under the given limits of ATTEMPT, or as far as
+   !! Newton's method leads.
    subroutine seat_parts(model, system, analysis, attempt, next)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -85,37 +91,47 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(motions_type), intent(out)    :: motions
-      real(wp), allocatable :: force(:, :), u(:, :), w(:, :, :)
-      integer, allocatable  :: moving(:)
-      real(wp) :: largest
-      integer  :: i, k, m, n
+      real(wp), allocatable :: force(:, :), u(:, :)
+      real(wp) :: largest, movement(3)
+      logical  :: moves
+      integer  :: i, k, m, n, part
 
       m = n_motions(model%mesh%dimension)
-      n = m*model%freedoms%n_parts
       motions%part_of = model%freedoms%part(system%retained)
       allocate (motions%u(model%mesh%dimension, m, size(system%retained)))
       do i = 1, size(system%retained)
          motions%u(:, :, i) = merge(0.0_wp, motions_of(model, system%retained(i)), spread(analysis%held(:, i), 2, m))
       end do
-      allocate (motions%part, source=[((k - 1)/m + 1, k = 1, n)])
-      allocate (motions%number, source=[(modulo(k - 1, m) + 1, k = 1, n)])
-      allocate (w(3, n, size(system%interface)), u(model%mesh%dimension, size(system%retained)))
-      do k = 1, n
-         u = motion(motions, k)
-         largest = max(maxval(abs(u)), tiny(1.0_wp))
-         do i = 1, size(system%retained)
-            if (motions%part_of(i) == motions%part(k)) &
-               motions%u(:, motions%number(k), i) = motions%u(:, motions%number(k), i)/largest
-         end do
-         w(:, k, :) = reshape([(joint_movement(system%interface(i), u/largest), i = 1, size(w, 3))], [3, size(w, 3)])
+      allocate (motions%part(m*model%freedoms%n_parts), motions%number(m*model%freedoms%n_parts))
+      allocate (motions%at(size(system%interface)))
+      do i = 1, size(motions%at)
+         allocate (motions%at(i)%motion(0), motions%at(i)%w(3, 0))
       end do
-      allocate (moving, source=pack([(k, k = 1, n)], [(any(abs(w(:, k, :)) > 0.0_wp), k = 1, n)]))
-      motions%part = motions%part(moving)
-      motions%number = motions%number(moving)
-      motions%w = w(:, moving, :)
-      n = size(moving)
+      allocate (u, force, mold=analysis%u)
+      n = 0
+      do part = 1, model%freedoms%n_parts
+         do k = 1, m
+            motions%part(n + 1) = part
+            motions%number(n + 1) = k
+            u = motion(motions, n + 1)
+            largest = max(maxval(abs(u)), tiny(1.0_wp))
+            do i = 1, size(system%retained)
+               if (motions%part_of(i) == part) motions%u(:, k, i) = motions%u(:, k, i)/largest
+            end do
+            moves = .false.
+            do i = 1, size(motions%at)
+               movement = joint_movement(system%interface(i), u)/largest
+               if (.not. any(abs(movement) > 0.0_wp)) cycle
+               moves = .true.
+               motions%at(i) = element_motions([motions%at(i)%motion, n + 1], &
+                                               reshape([motions%at(i)%w, movement], [3, size(motions%at(i)%motion) + 1]))
+            end do
+            if (moves) n = n + 1
+         end do
+      end do
+      motions%part = motions%part(:n)
+      motions%number = motions%number(:n)
       allocate (motions%k(n, n))
-      allocate (force, mold=u)
       do k = 1, n
          call forces_in_bodies(system, motion(motions, k), force)
          motions%k(:, k) = [(sum(motion(motions, i)*force), i = 1, n)]
@@ -144,8 +160,8 @@ contains
          do axis = 1, 3
             t(axis, axis) = t(axis, axis) + stand_in_stiffness*maxval(tangent)
          end do
-         associate (w => motions%w(:, :, i))
-            a = a + matmul(transpose(w), matmul(t, w))
+         associate (k => motions%at(i)%motion, w => motions%at(i)%w)
+            a(k, k) = a(k, k) + matmul(transpose(w), matmul(t, w))
          end associate
       end do
    end function stiffness_of
