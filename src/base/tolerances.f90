@@ -117,6 +117,7 @@ module tolerances
    real(wp), parameter :: same_work = 1.0e-3_wp      !! of the work of the last trial: what falls less in a tenfold step does not fall
    real(wp), parameter :: near_by = 1.0e-3_wp        !! of the width of the largest joint: far more than elastic slip
    real(wp), parameter :: farther_off = 1.0e-2_wp    !! of it: a body that still moves on; the rest of the way is extrapolated
+   real(wp), parameter :: seated = 1.0e-3_wp         !! of the first forces on the motions of parts: these have found their seats
    real(wp), parameter :: shortest_step = 1.0e-6_wp  !! of a direction that leads far away: the step is not shortened below it
    real(wp), parameter :: least_share = 1.0e-3_wp    !! of an increment: limits of friction that bear less of it are at their end
    real(wp), parameter :: least_start = 1.0e-4_wp    !! of an element's last pressure: nothing before it counts on a graded path

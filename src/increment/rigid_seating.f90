@@ -16,15 +16,14 @@ module rigid_seating
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, search, swap, trial_type
-   use tolerances, only: stand_in_stiffness
+   use tolerances, only: seated, stand_in_stiffness
    use unknowns, only: motions_of, n_motions
    implicit none
    private
 
    public :: seat_parts
 
-   integer, parameter  :: most_steps = 25    ! of Newton's method
-   real(wp), parameter :: seated = 1.0e-3_wp ! of the first forces on the motions: the parts have found their seats
+   integer, parameter :: most_steps = 25 ! of Newton's method
 
    !> How the motions move an interface element: those of the parts at its ends alone.
    type :: element_motions
