@@ -13,7 +13,7 @@ module given_limits
    use interface_operator, only: joint_movement
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, changes, evaluate, trial_type
+   use newton_trial, only: attempt_type, evaluate, trial_type
    use normal_stiffness, only: branch_load, branch_open
    use tolerances, only: farther_off, near_by, pressure_floor, same_work
    implicit none
@@ -26,7 +26,7 @@ module given_limits
    real(wp), parameter :: converges = 0.5_wp   ! of the residual: an iteration of the exact laws that leaves more does not converge
    real(wp), parameter :: close = 0.2_wp       ! of the work of the first unbalanced forces: what a line search may leave
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
-   real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave that crosses no kink
+   real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
@@ -126,10 +126,8 @@ contains
    end subroutine take_exact_laws
 
    !> The step along DIRECTION from NOW to NEXT at which the energy under the given limits is (almost) least: where the work of the
-   !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that falls short is taken
-   !! too where elements change their branch, as their new tangents lead farther than a long step along these ones; likewise one that
-   !! goes beyond, where the energy rises by no more than the last step has released: a step that ends at the first kinks goes too short
-   !! a way.
+   !! unbalanced forces on DIRECTION, which falls all the way, has fallen to CLOSE of the first. A full step that goes beyond is taken
+   !! too where the energy rises by no more than the last step has released: a step that ends at the first kinks goes too short a way.
    !! Where the work hardly falls over the size of a joint, or after many extensions, the body moves on.
    !! Source: Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707-716, with a memory of one step.
    subroutine minimise(model, system, analysis, attempt, now, direction, next)
@@ -144,7 +142,7 @@ contains
       real(wp), allocatable :: body(:, :)
       real(wp) :: farthest, first, released, work, low(2), high(2) ! steps and the works there
       integer  :: flat, i
-      logical  :: falls, is_least
+      logical  :: is_least
 
       flat = 0
       allocate (body, mold=direction)
@@ -164,8 +162,7 @@ contains
          work = -huge(1.0_wp)**0.25_wp
          if (next%size < huge(1.0_wp)) work = sum(next%residual*direction, mask=.not. analysis%held)
          is_least = next%size <= 0.5_wp*now%size .or. abs(work) <= close*abs(first)
-         falls = i == 1 .and. first > 0.0_wp .and. work <= merge(1.0_wp - same_work, enough, any(changes(now, next)))*first
-         if (is_least .or. falls) then
+         if (is_least .or. (i == 1 .and. first > 0.0_wp .and. work <= enough*first)) then
             released = released_energy(work)
             if (is_least .or. released >= -attempt%released) then
                attempt%released = max(0.0_wp, released)

@@ -10,7 +10,7 @@ module newton_iterations
    use load_path, only: support_force
    use model_data, only: model_type
    use nonlinear_elimination, only: eliminate_few
-   use newton_trial, only: attempt_type, changes, commit, evaluate, evaluate_at, search, swap, trial_type
+   use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
    use rigid_seating, only: seat_parts
    use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, forces_at, laws_at, loose_joints, &
@@ -280,6 +280,14 @@ contains
          attempt%ends = attempt%ends .or. (noise > load_size .and. .not. (attempt%carried .or. attempt%moves))
       end associate
    end subroutine judge
+
+   !> Which interface elements change their branch, or begin or stop slipping, from NOW to NEXT.
+   pure function changes(now, next)
+      type(trial_type), intent(in) :: now, next
+      logical :: changes(size(now%states))
+
+      changes = next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)
+   end function changes
 
    !> Record an iteration from NOW to NEXT for the listing, and the changes of branch.
    subroutine note_iteration(now, next, analysis, attempt)

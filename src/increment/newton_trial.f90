@@ -14,7 +14,7 @@ module newton_trial
    implicit none
    private
 
-   public :: changes, evaluate, evaluate_at, follow_law, given_law, swap, search, commit
+   public :: evaluate, evaluate_at, follow_law, given_law, swap, search, commit
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
@@ -105,14 +105,6 @@ contains
       call move_alloc(b, a)
       call move_alloc(c, b)
    end subroutine swap
-
-   !> Which interface elements change their branch, or begin or stop slipping, from NOW to NEXT.
-   pure function changes(now, next)
-      type(trial_type), intent(in) :: now, next
-      logical :: changes(size(now%states))
-
-      changes = next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)
-   end function changes
 
    !> Joint states and residual of TRIAL, whose displacements and body forces are set.
    subroutine evaluate(model, system, attempt, analysis, trial)
