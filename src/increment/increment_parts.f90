@@ -199,10 +199,11 @@ contains
    end subroutine approach_limit
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
-   !! extrapolated last increment if this one continues it, otherwise, or where that leads nowhere in few iterations, from the committed
-   !! state. If they do not lead quickly to equilibrium, the attempt is repeated with given limits of friction: from the best trial of
-   !! the straight laws if this has left less than their first, and if that fails too, from a structure in which nothing slips. This
-   !! last way is the first one where the part is expected to be above the limit load, as it shows this in fewer iterations.
+   !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less than
+   !! its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits of
+   !! friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a structure
+   !! in which nothing slips. This last way is the first one where the part is expected to be above the limit load, as it shows this in
+   !! fewer iterations.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -214,7 +215,7 @@ contains
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
       integer  :: k, ways(4), way
-      logical  :: stays ! the extrapolation has never left less than its first residual
+      logical  :: stays ! the last way was an extrapolation that NEVER_FALLS
 
       attempt%left = left
       attempt%load = analysis%now%condensed_load - left*analysis%change
@@ -282,7 +283,7 @@ contains
       is_clear = attempt%n_moving >= clear .and. (attempt%bearable > below_limit .or. attempt%bearable <= least_share)
    end function is_clear
 
-   !> Whether TO_FALL iterations, or more, with residuals SIZES have left no less than the first.
+   !> Whether TO_FALL iterations, or more, with residuals SIZES have all left more than the first.
    pure logical function never_falls(sizes)
       real(wp), intent(in) :: sizes(0:) !! [force]
 

@@ -37,7 +37,7 @@ module newton_iterations
    real(wp), parameter :: far_off = 10.0_wp            ! times the residual of a guess: its first step is searched
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
-   real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a step to the least energy that is shorter has touched something
+   real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a body has touched another where the least energy is before it
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
 contains
@@ -138,8 +138,8 @@ contains
 
    !> Go from NOW along DIRECTION to NEXT: to the least energy under given limits of friction, by a line search where the caller
    !! SEARCHES, or by a full step, which is shortened only where it leads FAR_AWAY: a body that hardly anything holds. Where the least
-   !! energy is near, because something has touched, the parts go on as rigid bodies. The step that
-   !! moves the supports is a full one; from there on the support forces are the reference load.
+   !! energy is at a small part of DIRECTION, a body has touched another: the parts go on as rigid bodies. The step that moves the
+   !! supports is a full one; from there on the support forces are the reference load.
    subroutine advance(model, system, analysis, attempt, now, direction, searches, next)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

@@ -41,7 +41,7 @@ module newton_trial
       ! the course of the iterations
       integer  :: iteration = 0
       real(wp) :: sizes(0:most_iterations) = 0.0_wp !! residuals [force]
-      real(wp) :: at_start = 0.0_wp               !! residual where the way starts, of an extrapolation before it [force]
+      real(wp) :: at_start = 0.0_wp               !! residual at the start of the way, before an extrapolation [force]
       real(wp) :: step = 1.0_wp                   !! length of the last step, in directions [-]
       real(wp) :: gain = 1.0_wp                   !! part of the present residual that the next step should leave [-]
       real(wp) :: tolerance = tight_direction     !! residual that the next direction may leave, relative [-]

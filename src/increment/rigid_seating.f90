@@ -1,7 +1,7 @@
-!> Bodies that look for their seats. A body that hardly anything holds goes along the direction of an iteration until its first
-!! interface elements touch, perhaps a thousandth of the way, and the next ones would come one by one, an iteration each. Here the
-!! parts of the structure go on as rigid bodies, to the least energy under the given limits of friction. With the rigid-body motions
-!! [B] of the parts, the movements [J] of the interface elements and their tangents [T], Newton's method solves
+!> The parts of the structure go on as rigid bodies to where they rest, under given limits of friction. A body that hardly anything
+!! holds goes along the direction of an iteration until its first interface elements touch, perhaps a thousandth of the way, and the
+!! next ones would come one by one, an iteration each. Instead the parts move to the least energy under these limits. With the
+!! rigid-body motions [B] of the parts, the movements [J] of the interface elements and their tangents [T], Newton's method solves
 !!
 !!      [B]^T ([K] + [J]^T [T] [J]) [B] {a} = [B]^T {r}
 !!
@@ -35,8 +35,8 @@ module rigid_seating
    type :: motions_type
       integer, allocatable  :: part_of(:)   ! (retained)
       real(wp), allocatable :: u(:, :, :)   ! (dimension, motions of a part, retained), 0 at supports
-      integer, allocatable  :: part(:)      ! (motions)
-      integer, allocatable  :: number(:)    ! (motions) which of the motions of this part
+      integer, allocatable  :: first(:)     ! (parts + 1) motions first(p) to first(p + 1) - 1 are those of part p
+      integer, allocatable  :: number(:)    ! (motions) which one of U it is
       type(element_motions), allocatable :: at(:) ! (elements)
       real(wp), allocatable :: k(:, :)      ! (motions, motions): [B]^T [K] [B] [force/length]
    end type motions_type
@@ -55,26 +55,23 @@ contains
       type(trial_type), allocatable :: there
       real(wp), allocatable :: a(:), direction(:, :), matrix(:, :)
       real(wp) :: first, step, work
-      integer  :: i, info, k, n
+      integer  :: i, info, n
 
       call find_motions(model, system, analysis, motions)
-      n = size(motions%part)
+      n = size(motions%number)
       if (n == 0) return
       step = attempt%step
       allocate (a(n), matrix(n, n), direction(size(next%u, 1), size(next%u, 2)))
       allocate (there, source=next)
       first = 0.0_wp
       do i = 1, most_steps
-         a = [(sum(motion(motions, k)*next%residual), k = 1, n)]
+         a = forces_on(motions, next%residual)
          if (i == 1) first = norm2(a)
          if (.not. norm2(a) > seated*first) exit
          matrix = stiffness_of(motions, next%tangent)
          call dposv('L', n, 1, matrix, n, a, n, info)
          if (info /= 0) exit
-         direction = 0.0_wp
-         do k = 1, n
-            direction = direction + a(k)*motion(motions, k)
-         end do
+         direction = moved_by(motions, a)
          work = sum(next%residual*direction)
          call search(model, system, attempt, analysis, next, direction, there)
          if (.not. there%size < huge(1.0_wp)) exit
@@ -92,7 +89,7 @@ contains
       type(motions_type), intent(out)    :: motions
       real(wp), allocatable :: force(:, :), u(:, :)
       real(wp) :: largest, movement(3)
-      logical  :: moves
+      logical  :: has_elements(model%freedoms%n_parts), moves
       integer  :: i, k, m, n, part
 
       m = n_motions(model%mesh%dimension)
@@ -101,18 +98,20 @@ contains
       do i = 1, size(system%retained)
          motions%u(:, :, i) = merge(0.0_wp, motions_of(model, system%retained(i)), spread(analysis%held(:, i), 2, m))
       end do
-      allocate (motions%part(m*model%freedoms%n_parts), motions%number(m*model%freedoms%n_parts))
+      allocate (motions%first(model%freedoms%n_parts + 1), motions%number(m*model%freedoms%n_parts))
       allocate (motions%at(size(system%interface)))
+      has_elements = .false.
       do i = 1, size(motions%at)
+         has_elements(model%freedoms%part(system%interface(i)%node)) = .true.
          allocate (motions%at(i)%motion(0), motions%at(i)%w(3, 0))
       end do
       allocate (u, force, mold=analysis%u)
       n = 0
       do part = 1, model%freedoms%n_parts
+         motions%first(part) = n + 1
+         if (.not. has_elements(part)) cycle
          do k = 1, m
-            motions%part(n + 1) = part
-            motions%number(n + 1) = k
-            u = motion(motions, n + 1)
+            u = merge(motions%u(:, k, :), 0.0_wp, spread(motions%part_of == part, 1, size(u, 1)))
             largest = max(maxval(abs(u)), tiny(1.0_wp))
             do i = 1, size(system%retained)
                if (motions%part_of(i) == part) motions%u(:, k, i) = motions%u(:, k, i)/largest
@@ -125,26 +124,49 @@ contains
                motions%at(i) = element_motions([motions%at(i)%motion, n + 1], &
                                                reshape([motions%at(i)%w, movement], [3, size(motions%at(i)%motion) + 1]))
             end do
-            if (moves) n = n + 1
+            if (.not. moves) cycle
+            n = n + 1
+            motions%number(n) = k
          end do
       end do
-      motions%part = motions%part(:n)
+      motions%first(part) = n + 1
       motions%number = motions%number(:n)
       allocate (motions%k(n, n))
       do k = 1, n
-         call forces_in_bodies(system, motion(motions, k), force)
-         motions%k(:, k) = [(sum(motion(motions, i)*force), i = 1, n)]
+         call forces_in_bodies(system, moved_by(motions, [(merge(1.0_wp, 0.0_wp, i == k), i = 1, n)]), force)
+         motions%k(:, k) = forces_on(motions, force)
       end do
    end subroutine find_motions
 
-   !> The field of displacements of motion K: (dimension, retained).
-   pure function motion(motions, k) result(u)
+   !> [B]{a}: the displacements by shares A of the motions.
+   pure function moved_by(motions, a) result(u)
       type(motions_type), intent(in) :: motions
-      integer, intent(in)            :: k
+      real(wp), intent(in)           :: a(:)
       real(wp) :: u(size(motions%u, 1), size(motions%u, 3))
+      integer  :: i, k
 
-      u = merge(motions%u(:, motions%number(k), :), 0.0_wp, spread(motions%part_of == motions%part(k), 1, size(u, 1)))
-   end function motion
+      u = 0.0_wp
+      do i = 1, size(u, 2)
+         do k = motions%first(motions%part_of(i)), motions%first(motions%part_of(i) + 1) - 1
+            u(:, i) = u(:, i) + a(k)*motions%u(:, motions%number(k), i)
+         end do
+      end do
+   end function moved_by
+
+   !> [B]^T {f}: what the forces F are on the motions.
+   pure function forces_on(motions, f) result(a)
+      type(motions_type), intent(in) :: motions
+      real(wp), intent(in)           :: f(:, :) !! (dimension, retained) [force]
+      real(wp) :: a(size(motions%number))
+      integer  :: i, k
+
+      a = 0.0_wp
+      do i = 1, size(f, 2)
+         do k = motions%first(motions%part_of(i)), motions%first(motions%part_of(i) + 1) - 1
+            a(k) = a(k) + dot_product(motions%u(:, motions%number(k), i), f(:, i))
+         end do
+      end do
+   end function forces_on
 
    !> The matrix of Newton's method with the TANGENTs of the interface elements. Where none of them holds a part, all do a little.
    pure function stiffness_of(motions, tangent) result(a)
