@@ -28,6 +28,7 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
+   real(wp), parameter :: most_of_work = 0.5_wp ! of that of the unbalanced forces along which a body moves on
    real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
@@ -249,6 +250,7 @@ contains
          bearable = max(0.0_wp, 1.0_wp - work/max(asked, work))
          if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
          attempt%bearable = bearable
+         attempt%falls = asked < most_of_work*work
          attempt%missing = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held))/maxval(abs(direction))
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint

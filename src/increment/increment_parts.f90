@@ -9,7 +9,7 @@ module increment_parts
    use kinds, only: wp
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type, most_iterations
+   use newton_trial, only: attempt_type
    use tolerances, only: least_share
    implicit none
    private
@@ -21,19 +21,19 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
-   integer, parameter  :: quick = 5               ! straight, then from_best with few iterations
-   integer, parameter  :: most_of_quick = 8       ! these
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
    integer, parameter  :: clear = 2               ! steps along which a body moves on
+   real(wp), parameter :: almost = 0.85_wp        ! of the part: given limits that bear so much are near to the limit load
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: least_cut = 0.1_wp      ! of a part: a cut leaves no less, as limits may grow with the load
-   real(wp), parameter :: below_limit = 0.85_wp   ! of the limit load: the next state; nearer to it almost everything slips
+   real(wp), parameter :: below_limit = 0.7_wp    ! of the limit load: the next state; nearer to it almost everything slips
    real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
-   integer, parameter  :: most_before = 45        ! iterations of an increment: after more of them there is no such last state
+   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium: the last of them lead to this state,
+   integer, parameter  :: least_to_it = 15        ! if so many are left
 
    !> What the attempts so far tell of the limit load of an increment.
    type :: limit_search
@@ -41,6 +41,7 @@ module increment_parts
       real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
       real(wp) :: missing = 0.0_wp            !! then [force]
       integer  :: leaves = 0                  !! then the joint that left its place
+      logical  :: falls = .false.             !! then, see attempt_type
       integer  :: n_cut = 0                   !! parts not borne since one was
       integer  :: only = 0                    !! way of the next attempt, 0: all
    end type limit_search
@@ -89,18 +90,18 @@ contains
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
-         if (attempt%n_moving > 0 .or. confirms) then
+         agrees = is_expected(attempt) .or. falls_again(search, attempt)
+         if (attempt%n_moving > 0 .or. confirms .or. agrees) then
             estimate = done + attempt%bearable*part
-            agrees = is_expected(attempt)
             if (agrees .or. confirms .or. search%n_cut == most_cuts .or. &
                 part <= max(least_share, near_limit*(done - ends(1)))) then
                if (search%only /= 0 .and. .not. agrees) then
                   search%only = 0 ! all ways have the last word
                   cycle
                end if
-               if (agrees .or. attempt%n_moving == 0) attempt%missing = search%missing ! of the larger part
+               if (agrees .or. attempt%n_moving == 0 .or. search%falls) attempt%missing = search%missing ! of the larger part
                if (attempt%n_moving == 0) attempt%leaves = search%leaves
-               if (attempt%is_limited .and. search%limit > 0.0_wp) estimate = min(estimate, ends(1) + search%limit)
+               if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
                if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
                call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
                exit
@@ -160,7 +161,8 @@ contains
    end function is_near
 
    !> The PART instead of one that given limits have not borne: to a state below the limit load, which is there by straight laws, or
-   !! where nothing tells the limit load, to half of the part or less.
+   !! where nothing tells the limit load, to half of the part or less. Where a part has not been borne before, given limits tell in fewer
+   !! iterations whether they bear this one.
    pure subroutine cut(search, done, attempt, part)
       type(limit_search), intent(inout) :: search
       real(wp), intent(in)              :: done    !! since the start of the increment [-]
@@ -169,14 +171,15 @@ contains
 
       search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
       search%refused = done + part
-      search%missing = attempt%missing
+      if (.not. (attempt%falls .and. search%falls)) search%missing = attempt%missing ! otherwise that of the whole increment stands
       search%leaves = attempt%leaves
+      search%falls = attempt%falls
       search%n_cut = search%n_cut + 1
       if (search%n_cut > 1) part = 0.5_wp*part
       part = max(below_limit*min(search%limit, done + part) - done, near_limit*done, &
                  merge(0.5_wp, least_cut, attempt%is_limited)*part)
+      search%only = merge(straight, sticking, done + part < search%limit .and. .not. attempt%is_limited)
       attempt%is_limited = .true.
-      search%only = merge(quick, sticking, search%limit > 0.0_wp)
    end subroutine cut
 
    !> Go on from DONE to SHARE of the increment, just below the limit load, if straight laws lead there.
@@ -189,9 +192,10 @@ contains
       real(wp), intent(inout)               :: done    !! [-]
       type(attempt_type), allocatable :: last
 
-      if (share <= done .or. analysis%record%n_iterations > most_before) return
+      if (share <= done .or. analysis%record%n_iterations > most_without - least_to_it) return
       allocate (last, source=attempt)
       last%only = straight
+      last%most = most_without - analysis%record%n_iterations
       call try_part(model, system, analysis, 1.0_wp - share, last)
       if (.not. last%converged) return
       analysis%record%n_parts = analysis%record%n_parts + 1
@@ -203,7 +207,7 @@ contains
    !! its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits of
    !! friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a structure
    !! in which nothing slips. This last way is the first one where the part is expected to be above the limit load, as it shows this in
-   !! fewer iterations.
+   !! fewer iterations, and the only one if a body then moves on.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -227,26 +231,25 @@ contains
       attempt%runs = .false.
       stays = .false.
       attempt%n_moving = 0
+      attempt%leaves = 0
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (is_given_up(analysis)) then
          attempt%trouble = none
          return
       end if
       ways = [extrapolated, straight, from_best, sticking]
-      ! a part that is expected to be above the limit load: given limits show this in fewer iterations
-      if (attempt%expected(1) <= attempt%expected(2)) ways = [sticking, extrapolated, straight, from_best]
+      if (is_above_limit(attempt)) ways = [sticking, extrapolated, straight, from_best]
       do k = 1, size(ways)
          way = ways(k)
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
          if (way == straight .and. stays) cycle
-         if (attempt%only > 0 .and. way /= attempt%only .and. .not. (attempt%only == quick .and. way < sticking)) cycle
+         if (attempt%only > 0 .and. way /= attempt%only) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
          attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                               system%number(:, system%retained) == 0)
          attempt%with_limits = way >= from_best
-         attempt%most = merge(most_of_quick, most_iterations, attempt%only == quick .and. way == from_best)
          attempt%from_best = way == from_best
          if (allocated(attempt%seen)) deallocate (attempt%seen)
          attempt%iteration = 0
@@ -265,16 +268,41 @@ contains
          if (way < from_best) first = attempt%at_start
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
+         if (attempt%n_moving > 0 .and. is_above_limit(attempt)) exit
          if (allocated(u)) deallocate (u)
       end do
    end subroutine try_part
 
-   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect.
+   !> Whether the part of ATTEMPT is expected to be above the limit load that a larger part has told.
+   pure logical function is_above_limit(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      is_above_limit = attempt%expected(1) <= attempt%expected(2)
+   end function is_above_limit
+
+   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect, or where no share is told, a
+   !! joint has left its place.
    pure logical function is_expected(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
+      is_expected = is_above_limit(attempt)
+      if (.not. is_expected) return
+      if (attempt%n_moving > 0) then
+         is_expected = attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
+      else
+         is_expected = attempt%leaves > 0 .and. attempt%expected(2) > 0.0_wp .and. attempt%expected(1) <= 1.0_wp
+      end if
    end function is_expected
+
+   !> Whether given limits have not borne the part for the reason for which they have not borne a larger one, as SEARCH has it: something
+   !! falls that the load of the part does not move, with as much force missing, such as a gib that nothing presses any more.
+   pure logical function falls_again(search, attempt)
+      type(limit_search), intent(in) :: search
+      type(attempt_type), intent(in) :: attempt
+
+      falls_again = attempt%n_moving > 0 .and. attempt%falls .and. search%falls .and. attempt%leaves == search%leaves .and. &
+                    abs(attempt%missing - search%missing) <= agreement*search%missing
+   end function falls_again
 
    !> Whether given limits have not borne the part, and nothing better is to be expected of another way: almost all of it, or nothing.
    pure logical function is_clear(attempt)

@@ -258,18 +258,20 @@ contains
       type(failure_type), intent(inout) :: failure
       character(:), allocatable :: words
       integer :: worst
+      logical :: slips
 
       words = attempt%where//': no equilibrium'
       if (is_given_up(analysis)) words = attempt%where//': given up after '// &
                                          integer_text(analysis%record%n_iterations)//' iterations'
       if (max(attempt%loose, attempt%leaves) > 0) then
-         associate (joint => model%joints%list(merge(attempt%loose, attempt%leaves, attempt%loose > 0)))
+         slips = attempt%leaves == attempt%loose .or. attempt%leaves == 0
+         associate (joint => model%joints%list(merge(attempt%loose, attempt%leaves, slips)))
             words = words//': joint '//integer_text(joint%id)// &
-                    one_of(attempt%loose > 0, ' slips or is open at all its nodes', ' moves without finding hold')// &
+                    one_of(slips, ' slips or is open at all its nodes', ' moves without finding hold')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
-            if (attempt%loose == 0 .and. all(attempt%worst > 0)) &
+            if (.not. slips .and. all(attempt%worst > 0)) &
                words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
          end associate
       else if (attempt%imprecise) then

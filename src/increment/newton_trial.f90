@@ -73,6 +73,7 @@ module newton_trial
       logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
       integer  :: leaves = 0                      !! then the joint that has left its place, 0: none
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
+      logical  :: falls = .false.                 !! this joint moves by itself, most of the work is not that of the load of the part
       real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
       ! the outcome
       logical  :: converged = .false.

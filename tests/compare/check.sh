@@ -15,11 +15,17 @@ mkdir -p "$work"
 
 fail() { echo "FAILED $1"; failed=$((failed + 1)); }
 
+# run_decks NAME...: as many side by side as there are cores; the exit status of each into $work/NAME.status
+run_decks() {
+   program=$program work=$work xargs -n 1 -P "$(nproc)" bash -c '
+      rm -f "$work/$1.out" "$work/$1".*.csv
+      "$program" -q -o "$work" "input/$1.bdf" > "$work/$1.log" 2>&1
+      echo $? > "$work/$1.status"' run_decks <<< "$*"
+}
+
 check_deck() {
    local name=$1 suffix status
-   rm -f "$work/$name.out" "$work/$name".*.csv
-   "$program" -q -o "$work" "input/$name.bdf" > "$work/$name.log" 2>&1
-   status=$?
+   status=$(cat "$work/$name.status")
    if [ $status -ne 0 ]; then
       cat "$work/$name.log"
       fail "$name: exit status $status"
@@ -51,6 +57,7 @@ else
       [ -f "input/$name.bdf" ] || fail "$reference: there is no deck input/$name.bdf"
    done
 fi
+run_decks $names
 for name in $names; do
    before=$failed
    check_deck "$name"
