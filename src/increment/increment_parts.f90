@@ -42,6 +42,7 @@ module increment_parts
       real(wp) :: missing = 0.0_wp            !! then [force]
       integer  :: leaves = 0                  !! then the joint that left its place
       logical  :: falls = .false.             !! then, see attempt_type
+      integer  :: n_moving = 0                !! then, likewise
       integer  :: n_cut = 0                   !! parts not borne since one was
       integer  :: only = 0                    !! way of the next attempt, 0: all
    end type limit_search
@@ -62,7 +63,7 @@ contains
       type(analysis_type), allocatable :: whole
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
-      logical  :: agrees, confirms
+      logical  :: agrees, confirms, is_last
 
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
@@ -91,21 +92,21 @@ contains
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
          agrees = is_expected(attempt) .or. falls_again(search, attempt)
-         if (attempt%n_moving > 0 .or. confirms .or. agrees) then
-            estimate = done + attempt%bearable*part
-            if (agrees .or. confirms .or. search%n_cut == most_cuts .or. &
-                part <= max(least_share, near_limit*(done - ends(1)))) then
-               if (search%only /= 0 .and. .not. agrees) then
-                  search%only = 0 ! all ways have the last word
-                  cycle
-               end if
-               if (agrees .or. attempt%n_moving == 0 .or. search%falls) attempt%missing = search%missing ! of the larger part
-               if (attempt%n_moving == 0) attempt%leaves = search%leaves
-               if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
-               if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
-               call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
-               exit
+         is_last = agrees .or. confirms .or. falls_too(search, attempt) .or. search%n_cut == most_cuts .or. &
+                   part <= max(least_share, near_limit*(done - ends(1)))
+         if (is_last .and. max(attempt%n_moving, search%n_moving) > 0) then
+            if (search%only /= 0 .and. .not. agrees) then
+               search%only = 0 ! all ways have the last word
+               cycle
             end if
+            estimate = done + attempt%bearable*part
+            if (agrees .or. attempt%n_moving == 0 .or. search%falls) attempt%missing = search%missing ! of the larger part
+            if (attempt%n_moving == 0) attempt%leaves = search%leaves
+            if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
+            if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
+            call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
+            exit
+         else if (max(attempt%n_moving, attempt%leaves) > 0 .and. .not. is_last) then
             call cut(search, done - ends(1), attempt, part)
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
@@ -169,11 +170,14 @@ contains
       type(attempt_type), intent(inout) :: attempt
       real(wp), intent(inout)           :: part    !! [-]
 
-      search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
       search%refused = done + part
-      if (.not. (attempt%falls .and. search%falls)) search%missing = attempt%missing ! otherwise that of the whole increment stands
-      search%leaves = attempt%leaves
-      search%falls = attempt%falls
+      if (attempt%n_moving > 0) then
+         search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
+         if (.not. (attempt%falls .and. search%falls)) search%missing = attempt%missing ! otherwise that of the whole increment stands
+         search%leaves = attempt%leaves
+         search%falls = attempt%falls
+         search%n_moving = attempt%n_moving
+      end if
       search%n_cut = search%n_cut + 1
       if (search%n_cut > 1) part = 0.5_wp*part
       part = max(below_limit*min(search%limit, done + part) - done, near_limit*done, &
@@ -300,9 +304,17 @@ contains
       type(limit_search), intent(in) :: search
       type(attempt_type), intent(in) :: attempt
 
-      falls_again = attempt%n_moving > 0 .and. attempt%falls .and. search%falls .and. attempt%leaves == search%leaves .and. &
+      falls_again = falls_too(search, attempt) .and. attempt%n_moving > 0 .and. attempt%leaves == search%leaves .and. &
                     abs(attempt%missing - search%missing) <= agreement*search%missing
    end function falls_again
+
+   !> Whether something falls as in a larger part, or a joint leaves its place where something has fallen.
+   pure logical function falls_too(search, attempt)
+      type(limit_search), intent(in) :: search
+      type(attempt_type), intent(in) :: attempt
+
+      falls_too = search%falls .and. merge(attempt%falls, attempt%leaves > 0, attempt%n_moving > 0)
+   end function falls_too
 
    !> Whether given limits have not borne the part, and nothing better is to be expected of another way: almost all of it, or nothing.
    pure logical function is_clear(attempt)

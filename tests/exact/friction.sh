@@ -76,6 +76,22 @@ for push in 300. 1350.; do
       END { print "checked " NR - 1 }' "$work/stacked-$push.summary"
 done
 stacked stacked-held 149. 0
+# A gib of weight 50 between a bed and a slide that is clamped by 1000 and pulled off on springs: it falls, which the pull does not push.
+for pull in 1000. 4000.; do
+   cards gib-$pull <<END
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 5;  INCR = 1;SUBCASE 2;  LOAD = 4;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,6,1,0.,0.;+,60.,10.;+,20,,21;BLOCK2,2,1,6,1,0.,10.;+,60.,20.,,,,,101,101;+,22,,23
+PMARK,20;PMARK,21;PMARK,22;PMARK,23;PSHELL,1,1,10.;MAT1,1,210000.,,0.3;JOINT,1,1,20;JOINT,2,1,22,21
+PJOINT,1,1,1,,0.2;JNORM,1,8.-3,0.5,95000.;JSHEAR,1,1000.,3000.;SPCM,1,1,23;CELAS2,901,5000.,108,2;CELAS2,902,5000.,114,2
+FORCEM,1,1000.,0.,-1.,0.,23;FORCEM,2,1.,0.,$pull,0.,23;FORCEM,3,50.,1.,0.,0.,21
+LOAD,5,1.,1.,1,1.,3;LOAD,4,1.,1.,1,1.,2,1.,3;JINCR,1,1;ENDDATA
+END
+   run gib-$pull 3
+   same "a gib falls, pull $pull: within 60 iterations" \
+      "$(awk -v only=2 -f tests/bench/iterations.awk "$work/gib-$pull.out" | awk '{ print ($2 > 0 && $2 <= 60); exit }')" 1
+   says "a gib falls, pull $pull: its joint and its weight, or what friction does not bear of it" "$work/gib-$pull.log" \
+      'joint [12] .*: [345][0-9][.0-9]* of force are missing'
+done
 for elements in 1 2 5; do
    small_block pulled-$elements NEWTON $elements -1.0 0.0 3 && says "$elements elements pulled off, NEWTON: names a node" "$work/pulled-$elements.log" 'node [0-9]'
    small_block sticks NEWTON $elements 100.0 19.8 0 &&
