@@ -13,7 +13,7 @@ module given_limits
    use interface_operator, only: joint_movement
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: attempt_type, evaluate, trial_type
+   use newton_trial, only: attempt_type, evaluate, trial_type, verdict_type
    use normal_stiffness, only: branch_load, branch_open
    use tolerances, only: farther_off, near_by, pressure_floor, same_work
    implicit none
@@ -50,10 +50,8 @@ contains
       attempt%n_limits = 0
       attempt%n_returns = 0
       attempt%runs = .false.
-      attempt%n_moving = 0
+      attempt%verdict_type = verdict_type()
       attempt%n_still = 0
-      attempt%leaves = 0
-      attempt%bearable = 1.0_wp
       attempt%asked = attempt%load - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, attempt%asked)
       if (attempt%from_best) then
@@ -251,7 +249,7 @@ contains
          if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
          attempt%bearable = bearable
          rest = attempt%left*sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
-         attempt%falls = max(asked, rest) < most_of_work*work
+         attempt%falls = asked + rest < most_of_work*work
          attempt%missing = (work + rest)/maxval(abs(direction))
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
@@ -320,7 +318,7 @@ contains
       do i = 1, size(system%interface)
          if (norm2(joint_movement(system%interface(i), now%u) - analysis%movement(:, i)) <= width) cycle
          attempt%ends = .true.
-         attempt%leaves = model%joints%element(i)%joint
+         if (attempt%n_moving == 0) attempt%leaves = model%joints%element(i)%joint
          return
       end do
    end subroutine judge_limits

@@ -9,7 +9,7 @@ module increment_parts
    use kinds, only: wp
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type
+   use newton_trial, only: attempt_type, verdict_type
    use tolerances, only: least_share
    implicit none
    private
@@ -21,9 +21,11 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
+   integer, parameter  :: every = -1              ! of these ways, also where given limits do not bear the part
+   integer, parameter  :: others = -2             ! all ways but STICKING, by which the part has just not been borne
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
    integer, parameter  :: clear = 2               ! steps along which a body moves on
-   real(wp), parameter :: almost = 0.85_wp        ! of the part: given limits that bear so much are near to the limit load
+   real(wp), parameter :: almost = 0.7_wp         ! of the part: given limits that bear so much are near to the limit load
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: least_cut = 0.1_wp      ! of a part: a cut leaves no less, as limits may grow with the load
@@ -31,20 +33,17 @@ module increment_parts
    real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
+   real(wp), parameter :: nothing(2) = [1.0_wp, 0.0_wp] ! bounds of what nothing has let expect
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
-   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium: the last of them lead to this state,
-   integer, parameter  :: least_to_it = 15        ! if so many are left
+   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included,
+   integer, parameter  :: least_to_it = 15        ! for which so many must be left
 
-   !> What the attempts so far tell of the limit load of an increment.
-   type :: limit_search
+   !> What the attempts so far tell of the limit load of an increment, with the verdict on the last part that was not borne.
+   type, extends(verdict_type) :: limit_search
       real(wp) :: limit = 0.0_wp              !! estimate of the last part that was not borne, as a share of the load; 0: none [-]
       real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
-      real(wp) :: missing = 0.0_wp            !! then [force]
-      integer  :: leaves = 0                  !! then the joint that left its place
-      logical  :: falls = .false.             !! then, see attempt_type
-      integer  :: n_moving = 0                !! then, likewise
       integer  :: n_cut = 0                   !! parts not borne since one was
-      integer  :: only = 0                    !! way of the next attempt, 0: all
+      integer  :: only = 0                    !! way of the next attempt; 0: all, as far as needed; EVERY or OTHERS
    end type limit_search
 
 contains
@@ -63,8 +62,9 @@ contains
       type(analysis_type), allocatable :: whole
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
-      logical  :: agrees, confirms, is_last
+      logical  :: agrees, confirms, is_last, moves
 
+      attempt%expected = nothing
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
          if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
@@ -78,7 +78,7 @@ contains
          part = min(part, ends(2) - done)
          left = 1.0_wp - ends(2)
          if (done + part < ends(2)) left = 1.0_wp - done - part
-         attempt%expected = [1.0_wp, 0.0_wp]
+         attempt%expected = nothing
          if (done > ends(1) .and. attempt%is_limited) & ! without a limit load below zero: given limits begin, nothing agrees
             attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
          attempt%only = search%only
@@ -91,26 +91,31 @@ contains
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
-         agrees = is_expected(attempt) .or. falls_again(search, attempt)
-         is_last = agrees .or. confirms .or. falls_too(search, attempt) .or. search%n_cut == most_cuts .or. &
-                   part <= max(least_share, near_limit*(done - ends(1)))
-         if (is_last .and. max(attempt%n_moving, search%n_moving) > 0) then
-            if (search%only /= 0 .and. .not. agrees) then
-               search%only = 0 ! all ways have the last word
+         agrees = is_expected(attempt)
+         is_last = agrees .or. confirms .or. leaves_as_expected(attempt) .or. falls_too(search, attempt) .or. &
+                   search%n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1)))
+         moves = attempt%n_moving > 0
+         if (is_last .and. (moves .or. (search%n_moving > 0 .and. (attempt%leaves > 0 .or. confirms)))) then
+            if (.not. (agrees .or. attempt%tried_all)) then ! all ways have the last word
+               search%only = merge(every, others, search%only == straight)
                cycle
             end if
-            estimate = done + attempt%bearable*part
-            if (agrees .or. attempt%n_moving == 0 .or. search%falls) attempt%missing = search%missing ! of the larger part
-            if (attempt%n_moving == 0) attempt%leaves = search%leaves
+            estimate = done
+            if (moves) estimate = done + attempt%bearable*part
+            if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
+               attempt%missing = search%missing
+               attempt%leaves = search%leaves
+            end if
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit
-         else if (max(attempt%n_moving, attempt%leaves) > 0 .and. .not. is_last) then
+         else if ((moves .or. attempt%leaves > 0) .and. .not. is_last) then
             call cut(search, done - ends(1), attempt, part)
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
             search%only = 0
+            attempt%is_limited = search%n_moving > 0
          else
             exit
          end if
@@ -119,6 +124,7 @@ contains
       attempt%left_over = 1.0_wp - done
       if (done < ends(2) .or. .not. allocated(whole)) return
       attempt%is_limited = .false.
+      attempt%expected = nothing
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -142,6 +148,7 @@ contains
       search%n_cut = 0
       is_limited = is_limited .and. done < search%refused - least_share
       if (.not. is_limited) then
+         search = limit_search()
          part = 2.0_wp*part
       else if (is_near(search, done)) then
          part = search%refused - done
@@ -162,8 +169,8 @@ contains
    end function is_near
 
    !> The PART instead of one that given limits have not borne: to a state below the limit load, which is there by straight laws, or
-   !! where nothing tells the limit load, to half of the part or less. Where a part has not been borne before, given limits tell in fewer
-   !! iterations whether they bear this one.
+   !! where nothing tells the limit load, to half of the part or less. Where a part has not been borne before, given limits tell in
+   !! fewer iterations whether they bear this one.
    pure subroutine cut(search, done, attempt, part)
       type(limit_search), intent(inout) :: search
       real(wp), intent(in)              :: done    !! since the start of the increment [-]
@@ -173,10 +180,7 @@ contains
       search%refused = done + part
       if (attempt%n_moving > 0) then
          search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
-         if (.not. (attempt%falls .and. search%falls)) search%missing = attempt%missing ! otherwise that of the whole increment stands
-         search%leaves = attempt%leaves
-         search%falls = attempt%falls
-         search%n_moving = attempt%n_moving
+         search%verdict_type = attempt%verdict_type
       end if
       search%n_cut = search%n_cut + 1
       if (search%n_cut > 1) part = 0.5_wp*part
@@ -207,11 +211,12 @@ contains
    end subroutine approach_limit
 
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
-   !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less than
-   !! its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits of
-   !! friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a structure
-   !! in which nothing slips. This last way is the first one where the part is expected to be above the limit load, as it shows this in
-   !! fewer iterations, and the only one if a body then moves on.
+   !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less
+   !! than its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits
+   !! of friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a
+   !! structure in which nothing slips. This last way is the first one where given limits have not borne a larger part, as it shows
+   !! this in fewer iterations, and the only one if a body then moves on above the limit load, unless EVERY way is asked for, or the
+   !! OTHERS are: the verdict before stands where given limits say nothing more.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -220,6 +225,7 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
       type(failure_type) :: none
+      type(verdict_type) :: before
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
       integer  :: k, ways(4), way
@@ -234,20 +240,21 @@ contains
       attempt%converged = .false.
       attempt%runs = .false.
       stays = .false.
-      attempt%n_moving = 0
-      attempt%leaves = 0
+      attempt%tried_all = attempt%only <= 0
+      before = attempt%verdict_type
+      attempt%verdict_type = verdict_type()
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (is_given_up(analysis)) then
          attempt%trouble = none
          return
       end if
       ways = [extrapolated, straight, from_best, sticking]
-      if (is_above_limit(attempt)) ways = [sticking, extrapolated, straight, from_best]
+      if (follows_refused(attempt)) ways = [sticking, extrapolated, straight, from_best]
       do k = 1, size(ways)
          way = ways(k)
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
          if (way == straight .and. stays) cycle
-         if (attempt%only > 0 .and. way /= attempt%only) cycle
+         if (attempt%only > 0 .and. way /= attempt%only .or. attempt%only == others .and. way == sticking) cycle
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
@@ -263,6 +270,7 @@ contains
          attempt%n_slow = 0
          attempt%flips = 0
          attempt%largest_noise = 0.0_wp
+         attempt%runs = .false.
          attempt%converged = .false.
          attempt%trouble = none
          if (present(from)) u = from
@@ -272,43 +280,42 @@ contains
          if (way < from_best) first = attempt%at_start
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
-         if (attempt%n_moving > 0 .and. is_above_limit(attempt)) exit
+         if (way == sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. follows_refused(attempt) .and. &
+             attempt%expected(1) <= 1.0_wp) then
+            attempt%tried_all = .false.
+            exit
+         end if
          if (allocated(u)) deallocate (u)
       end do
+      if (attempt%only == others .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = before
    end subroutine try_part
 
-   !> Whether the part of ATTEMPT is expected to be above the limit load that a larger part has told.
-   pure logical function is_above_limit(attempt)
+   !> Whether given limits have not borne a larger part than that of ATTEMPT, from an earlier state: the load of ATTEMPT is expected
+   !! to be above the limit load, or near it.
+   pure logical function follows_refused(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      is_above_limit = attempt%expected(1) <= attempt%expected(2)
-   end function is_above_limit
+      follows_refused = attempt%expected(1) <= attempt%expected(2)
+   end function follows_refused
 
-   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect, or where no share is told, a
-   !! joint has left its place.
+   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect.
    pure logical function is_expected(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      is_expected = is_above_limit(attempt)
-      if (.not. is_expected) return
-      if (attempt%n_moving > 0) then
-         is_expected = attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
-      else
-         is_expected = attempt%leaves > 0 .and. attempt%expected(2) > 0.0_wp .and. attempt%expected(1) <= 1.0_wp
-      end if
+      is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
    end function is_expected
 
-   !> Whether given limits have not borne the part for the reason for which they have not borne a larger one, as SEARCH has it: something
-   !! falls that the load of the part does not move, with as much force missing, such as a gib that nothing presses any more.
-   pure logical function falls_again(search, attempt)
-      type(limit_search), intent(in) :: search
+   !> Whether a joint has left its place, though given limits tell no share that they bear, in a part that ends above the limit load
+   !! that a larger part has told.
+   pure logical function leaves_as_expected(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      falls_again = falls_too(search, attempt) .and. attempt%n_moving > 0 .and. attempt%leaves == search%leaves .and. &
-                    abs(attempt%missing - search%missing) <= agreement*search%missing
-   end function falls_again
+      leaves_as_expected = attempt%n_moving == 0 .and. attempt%leaves > 0 .and. follows_refused(attempt) .and. &
+                           attempt%expected(1) <= 1.0_wp .and. attempt%expected(2) > 0.0_wp
+   end function leaves_as_expected
 
-   !> Whether something falls as in a larger part, or a joint leaves its place where something has fallen.
+   !> Whether something falls as in a larger part, as SEARCH has it, or a joint leaves its place after that: a gib that nothing
+   !! presses any more falls whatever the load of the part.
    pure logical function falls_too(search, attempt)
       type(limit_search), intent(in) :: search
       type(attempt_type), intent(in) :: attempt
@@ -320,7 +327,7 @@ contains
    pure logical function is_clear(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      is_clear = attempt%n_moving >= clear .and. (attempt%bearable > below_limit .or. attempt%bearable <= least_share)
+      is_clear = attempt%n_moving >= clear .and. (attempt%bearable > almost .or. attempt%bearable <= least_share)
    end function is_clear
 
    !> Whether TO_FALL iterations, or more, with residuals SIZES have all left more than the first.

@@ -56,7 +56,6 @@ contains
       real(wp), allocatable :: at_now(:, :), direction(:, :), residual(:, :)
       integer :: at
       logical :: anew, guessed, moves
-      logical :: loose(size(model%joints%list))
 
       allocate (direction, mold=analysis%u)
       attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
@@ -125,11 +124,7 @@ contains
 
       ! for the message about an attempt that fails
       attempt%imprecise = attempt%noise > most_rounding_of_forces*attempt%load_size .and. .not. attempt%carried
-      loose = loose_joints(model, now%states)
-      attempt%loose = findloc(loose, .true., dim=1)
-      if (attempt%leaves > 0) then
-         if (loose(attempt%leaves)) attempt%loose = attempt%leaves
-      end if
+      attempt%loose = loose_joints(model, now%states)
       attempt%worst = 0
       at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
       if (at > 0) attempt%worst = [system%retained((at - 1)/model%mesh%dimension + 1), modulo(at - 1, model%mesh%dimension) + 1]

@@ -20,8 +20,17 @@ module newton_trial
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
    integer, parameter, public :: most_iterations = 60
 
+   !> What given limits say of a part that they do not bear.
+   type, public :: verdict_type
+      integer  :: n_moving = 0                    !! steps along which a body moved on
+      integer  :: leaves = 0                      !! the joint that has moved most there, or left its place, 0: none
+      logical  :: falls = .false.                 !! the body moves by itself: most of the work is not that of the load
+      real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
+      real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
+   end type verdict_type
+
    !> One attempt at a part of the increment.
-   type, public :: attempt_type
+   type, public, extends(verdict_type) :: attempt_type
       ! the goal
       character(:), allocatable :: where          !! stage and increment, for messages
       real(wp) :: left = 0.0_wp                   !! fraction of the increment left at the goal [-]
@@ -36,7 +45,8 @@ module newton_trial
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       real(wp) :: expected(2) = [1.0_wp, 0.0_wp]  !! bounds of BEARABLE that agree with such a part, none if the first is larger [-]
       integer  :: most = most_iterations          !! most iterations of the present way
-      integer  :: only = 0                        !! the ways of increment_parts that are tried, 0: all
+      integer  :: only = 0                        !! the ways that are tried, see increment_parts
+      logical  :: tried_all = .false.             !! of them none could do better
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
       integer  :: iteration = 0
@@ -69,18 +79,13 @@ module newton_trial
       real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
       integer  :: n_still = 0                     !! the last steps that released no energy
-      integer  :: n_moving = 0                    !! steps along which a body moved on
       logical  :: runs = .false.                  !! the body moves without end: the limits do not bear the load
-      integer  :: leaves = 0                      !! then the joint that has left its place, 0: none
-      real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
-      logical  :: falls = .false.                 !! this joint moves by itself, most of the work is not that of the load of the part
-      real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration
       type(failure_type) :: trouble               !! a matrix that could not be factorised
       real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
-      integer  :: loose = 0                       !! a joint that is open or slips entirely at the end, 0: none
+      logical, allocatable :: loose(:)            !! joints that are open or slip entirely at the end
       integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end
       logical  :: imprecise = .false.             !! rounding in the bodies is not small compared with the load
    end type attempt_type

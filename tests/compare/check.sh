@@ -17,16 +17,17 @@ fail() { echo "FAILED $1"; failed=$((failed + 1)); }
 
 # run_decks NAME...: as many side by side as there are cores; the exit status of each into $work/NAME.status
 run_decks() {
-   program=$program work=$work xargs -n 1 -P "$(nproc)" bash -c '
-      rm -f "$work/$1.out" "$work/$1".*.csv
+   local name
+   for name; do rm -f "$work/$name.status" "$work/$name.out" "$work/$name".*.csv; done
+   printf '%s\n' "$@" | sort -u | program=$program work=$work xargs -r -d '\n' -n 1 -P "$(nproc)" bash -c '
       "$program" -q -o "$work" "input/$1.bdf" > "$work/$1.log" 2>&1
-      echo $? > "$work/$1.status"' run_decks <<< "$*"
+      echo $? > "$work/$1.status"' run_decks
 }
 
 check_deck() {
    local name=$1 suffix status
    status=$(cat "$work/$name.status")
-   if [ $status -ne 0 ]; then
+   if [ "$status" != 0 ]; then
       cat "$work/$name.log"
       fail "$name: exit status $status"
       return

@@ -76,7 +76,8 @@ for push in 300. 1350.; do
       END { print "checked " NR - 1 }' "$work/stacked-$push.summary"
 done
 stacked stacked-held 149. 0
-# A gib of weight 50 between a bed and a slide that is clamped by 1000 and pulled off on springs: it falls, which the pull does not push.
+# A gib of weight 50 between a bed and a slide that 1000 clamps. Springs hold the slide when it is pulled off: the gib falls, which the
+# pull does not push.
 for pull in 1000. 4000.; do
    cards gib-$pull <<END
 METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 5;  INCR = 1;SUBCASE 2;  LOAD = 4;  INCR = 1
@@ -90,7 +91,7 @@ END
    same "a gib falls, pull $pull: within 60 iterations" \
       "$(awk -v only=2 -f tests/bench/iterations.awk "$work/gib-$pull.out" | awk '{ print ($2 > 0 && $2 <= 60); exit }')" 1
    says "a gib falls, pull $pull: its joint and its weight, or what friction does not bear of it" "$work/gib-$pull.log" \
-      'joint [12] .*: [345][0-9][.0-9]* of force are missing'
+      'joint [12] .*: [345][0-9]\(\.[0-9]*\)\? of force are missing'
 done
 for elements in 1 2 5; do
    small_block pulled-$elements NEWTON $elements -1.0 0.0 3 && says "$elements elements pulled off, NEWTON: names a node" "$work/pulled-$elements.log" 'node [0-9]'
