@@ -241,16 +241,16 @@ contains
       !! Perfectly Plastic Solids, Wiley 1951.
       subroutine note_missing(work)
          real(wp), intent(in) :: work
-         real(wp) :: asked, bearable, rest
+         real(wp) :: asked, bearable, whole
          integer  :: i
 
          asked = sum(attempt%asked*direction, mask=.not. analysis%held)
          bearable = max(0.0_wp, 1.0_wp - work/max(asked, work))
          if (attempt%n_moving > 0 .and. bearable >= attempt%bearable) return
          attempt%bearable = bearable
-         rest = attempt%left*sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
-         attempt%falls = asked + rest < most_of_work*work
-         attempt%missing = (work + rest)/maxval(abs(direction))
+         whole = sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
+         attempt%falls = whole < most_of_work*work
+         attempt%missing = (work + attempt%left*whole)/maxval(abs(direction))
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
