@@ -28,7 +28,7 @@ module given_limits
    real(wp), parameter :: longest = 10.0_wp    ! times the last step: the next one of a line search
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
-   real(wp), parameter :: most_of_work = 0.5_wp ! of that of the unbalanced forces along which a body moves on
+   real(wp), parameter :: most_of_work = 0.5_wp ! on a body that moves on: it falls if the load does less
    real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
@@ -49,7 +49,6 @@ contains
 
       attempt%n_limits = 0
       attempt%n_returns = 0
-      attempt%runs = .false.
       attempt%verdict_type = verdict_type()
       attempt%n_still = 0
       attempt%asked = attempt%load - analysis%body

@@ -9,7 +9,7 @@ module increment_parts
    use kinds, only: wp
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type, verdict_type
+   use newton_trial, only: attempt_type, no_bounds, verdict_type
    use tolerances, only: least_share
    implicit none
    private
@@ -21,7 +21,7 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
-   integer, parameter  :: every = -1              ! of these ways, also where given limits do not bear the part
+   integer, parameter  :: every = -1              ! of these ways, also after one by which a body moves on
    integer, parameter  :: others = -2             ! all ways but STICKING, by which the part has just not been borne
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
    integer, parameter  :: clear = 2               ! steps along which a body moves on
@@ -33,7 +33,6 @@ module increment_parts
    real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
-   real(wp), parameter :: nothing(2) = [1.0_wp, 0.0_wp] ! bounds of what nothing has let expect
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included,
    integer, parameter  :: least_to_it = 15        ! for which so many must be left
@@ -64,7 +63,7 @@ contains
       real(wp) :: done, estimate, left, part
       logical  :: agrees, confirms, is_last, moves
 
-      attempt%expected = nothing
+      attempt%expected = no_bounds
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
          if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
@@ -78,7 +77,7 @@ contains
          part = min(part, ends(2) - done)
          left = 1.0_wp - ends(2)
          if (done + part < ends(2)) left = 1.0_wp - done - part
-         attempt%expected = nothing
+         attempt%expected = no_bounds
          if (done > ends(1) .and. attempt%is_limited) & ! without a limit load below zero: given limits begin, nothing agrees
             attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
          attempt%only = search%only
@@ -124,7 +123,7 @@ contains
       attempt%left_over = 1.0_wp - done
       if (done < ends(2) .or. .not. allocated(whole)) return
       attempt%is_limited = .false.
-      attempt%expected = nothing
+      attempt%expected = no_bounds
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -238,12 +237,12 @@ contains
       attempt%least = huge(1.0_wp)
       first = 0.0_wp
       attempt%converged = .false.
-      attempt%runs = .false.
       stays = .false.
       attempt%tried_all = attempt%only <= 0
       before = attempt%verdict_type
       attempt%verdict_type = verdict_type()
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
+      if (.not. allocated(attempt%loose)) allocate (attempt%loose(size(model%joints%list)), source=.false.)
       if (is_given_up(analysis)) then
          attempt%trouble = none
          return
@@ -280,8 +279,7 @@ contains
          if (way < from_best) first = attempt%at_start
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
-         if (way == sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. follows_refused(attempt) .and. &
-             attempt%expected(1) <= 1.0_wp) then
+         if (way == sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. ends_above_limit(attempt)) then
             attempt%tried_all = .false.
             exit
          end if
@@ -298,6 +296,13 @@ contains
       follows_refused = attempt%expected(1) <= attempt%expected(2)
    end function follows_refused
 
+   !> Whether such a part ends above the limit load, as far as the larger one has told it, or within AGREEMENT below it.
+   pure logical function ends_above_limit(attempt)
+      type(attempt_type), intent(in) :: attempt
+
+      ends_above_limit = follows_refused(attempt) .and. attempt%expected(1) <= 1.0_wp
+   end function ends_above_limit
+
    !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect.
    pure logical function is_expected(attempt)
       type(attempt_type), intent(in) :: attempt
@@ -310,8 +315,8 @@ contains
    pure logical function leaves_as_expected(attempt)
       type(attempt_type), intent(in) :: attempt
 
-      leaves_as_expected = attempt%n_moving == 0 .and. attempt%leaves > 0 .and. follows_refused(attempt) .and. &
-                           attempt%expected(1) <= 1.0_wp .and. attempt%expected(2) > 0.0_wp
+      leaves_as_expected = attempt%n_moving == 0 .and. attempt%leaves > 0 .and. ends_above_limit(attempt) .and. &
+                           attempt%expected(2) > 0.0_wp
    end function leaves_as_expected
 
    !> Whether something falls as in a larger part, as SEARCH has it, or a joint leaves its place after that: a gib that nothing

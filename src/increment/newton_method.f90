@@ -258,17 +258,14 @@ contains
       type(failure_type), intent(inout) :: failure
       character(:), allocatable :: words
       integer :: at, worst
-      logical :: slips
 
       words = attempt%where//': no equilibrium'
       if (is_given_up(analysis)) words = attempt%where//': given up after '// &
                                          integer_text(analysis%record%n_iterations)//' iterations'
       at = attempt%leaves
-      if (at == 0 .and. allocated(attempt%loose)) at = findloc(attempt%loose, .true., dim=1)
+      if (at == 0) at = findloc(attempt%loose, .true., dim=1)
       if (at > 0) then
-         slips = .true.
-         if (allocated(attempt%loose)) slips = attempt%loose(at)
-         associate (joint => model%joints%list(at))
+         associate (joint => model%joints%list(at), slips => attempt%loose(at))
             words = words//': joint '//integer_text(joint%id)// &
                     one_of(slips, ' slips or is open at all its nodes', ' moves without finding hold')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &

@@ -19,11 +19,12 @@ module newton_trial
    real(wp), parameter :: longest = 10.0_wp           ! line search: largest extension of a step at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
    integer, parameter, public :: most_iterations = 60
+   real(wp), parameter, public :: no_bounds(2) = [1.0_wp, 0.0_wp] !! of EXPECTED: the first is the larger one
 
    !> What given limits say of a part that they do not bear.
    type, public :: verdict_type
       integer  :: n_moving = 0                    !! steps along which a body moved on
-      integer  :: leaves = 0                      !! the joint that has moved most there, or left its place, 0: none
+      integer  :: leaves = 0                      !! the joint that moved most along them, or left its place, 0: none
       logical  :: falls = .false.                 !! the body moves by itself: most of the work is not that of the load
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
       real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
@@ -43,10 +44,10 @@ module newton_trial
       logical  :: with_limits = .false.           !! friction by a sequence of given limits
       logical  :: renews = .false.                !! an iteration at least: other runs go on with its factor
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
-      real(wp) :: expected(2) = [1.0_wp, 0.0_wp]  !! bounds of BEARABLE that agree with such a part, none if the first is larger [-]
+      real(wp) :: expected(2) = no_bounds         !! bounds of BEARABLE that agree with such a part [-]
       integer  :: most = most_iterations          !! most iterations of the present way
       integer  :: only = 0                        !! the ways that are tried, see increment_parts
-      logical  :: tried_all = .false.             !! of them none could do better
+      logical  :: tried_all = .false.             !! no way is left that could bear the part
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
       ! the course of the iterations
       integer  :: iteration = 0

@@ -45,6 +45,13 @@ same() { if [ "$2" = "$3" ]; then passed=$((passed + 1)); else fail "$1: '$2', e
 # says WORDS FILE PATTERN
 says() { if grep -q -- "$3" "$2"; then passed=$((passed + 1)); else fail "$1: no '$3' in $2"; fi; }
 
+# missing NAME: the force that is missing where NEWTON has found no equilibrium; last_state NAME: the share of the stage where the results end
+missing() { sed -n 's/.*: \([0-9.E+-]*\) of force are missing.*/\1/p' "$work/$1.log"; }
+last_state() { sed -n 's/.*last state in equilibrium is at \([0-9.]*\) of stage.*/\1/p' "$work/$1.log"; }
+
+# iterations NAME [STAGE]: of NEWTON, in all stages or one; those that a long history leaves out count too
+iterations() { awk -v only="${2:-}" -f tests/bench/iterations.awk "$work/$1.out" | awk '{ print $2; exit }'; }
+
 # table NAME TITLE: the lines of the tables of the listing that are titled so
 table() { awk -v title=" $2" 'index($0, title) == 1 { on = 1; next } /^ [A-Z]/ { on = 0 } on' "$work/$1.out"; }
 

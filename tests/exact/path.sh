@@ -2,10 +2,7 @@
 # element turns back on the way.
 # With INCR its error of path is printed, and is the true one; above 1 % it is warned of. ALL=yes in the environment: the bracket too.
 
-# iterations NAME; contact NAME: the smallest share of the last stage; off NAME COLUMN STAGE
-# The rows of a long history are not all printed: the number of the last one of an increment counts.
-iterations() { awk '/^ CONVERGENCE HISTORY, STAGE / { on = 1; stage++; next } /^ [A-Z]/ { on = 0 }
-   on && $1 + 0 > 0 && $3 + 0 > 0 && NF >= 6 { last[stage, $1] = $3 } END { for (k in last) n += last[k]; print n + 0 }' "$work/$1.out"; }
+# contact NAME: the smallest share of the last stage; off NAME COLUMN STAGE
 contact() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } { print $1, $2, sprintf("%.6f", $at["contact"]) }' "$work/$1.stage.csv"; }
 off() { awk -v c="$2" -v stage="${3:-1}" '/^ ERROR OF PATH, STAGE / { on = $5 + 0 == stage; next } /^ [A-Z]/ { on = 0 }
    on && $1 + 0 > 0 { v = $c } END { print v }' "$work/$1.out"; }

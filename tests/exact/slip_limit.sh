@@ -41,19 +41,17 @@ for load in '300. 4000.' '3000. 4000.' '300. 900.'; do
    rm -f "$work/limit_falling".*.csv "$work/limit_falling.out"
    run limit_falling 3
    says "pushed while the pressure falls, $load: the message" "$work/limit_falling.log" 'joint 1 slips .*of force are missing'
-   set -- $load $(sed -n 's/.*last state in equilibrium is at \([0-9.]*\) of stage 2.*/\1/p' "$work/limit_falling.log") \
-      $(awk -v only=2 -f tests/bench/iterations.awk "$work/limit_falling.out" | awk '{ print $2; exit }')
+   set -- $load $(last_state limit_falling) $(iterations limit_falling 2)
    same "pushed while the pressure falls, $load: at $3 after $4 iterations" \
       "$(awk "BEGIN { limit = 200/($1 + 0.2*$2); print ($3 > 0.95*limit && $3 < 1.0005*limit && $4 > 0 && $4 <= 60) }")" 1
 done
 
-# Nothing pushes more, the pressure falls until the block does, 0.2 (1000 - 900 s) = 100; at the end 0.2*100 of the 100 is borne.
+# The push of 100 stays, the pressure falls until the block slips, 0.2 (1000 - 900 s) = 100; at the end 0.2*100 of the 100 is borne.
 sed -i 's/^FORCEM,1,1000\.,0\.,-1\./FORCEM,1,1000.,0.1,-1./; s/^FORCEM,2,1\.,300\.,/FORCEM,2,1.,0.,/' "$work/limit_falling.bdf"
 rm -f "$work/limit_falling".*.csv "$work/limit_falling.out"
 run limit_falling 3
-near 'the pressure falls: missing' "$(sed -n 's/.*: \([0-9.E+-]*\) of force are missing.*/\1/p' "$work/limit_falling.log")" 100-20 2e-2
-near 'the pressure falls: the limit load' "$(sed -n 's/.*last state in equilibrium is at \([0-9.]*\) of stage 2.*/\1/p' "$work/limit_falling.log")" \
-   '(1000 - 100/0.2)/900' 2e-2
+near 'the pressure falls: missing' "$(missing limit_falling)" 100-20 2e-2
+near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
 
 # A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. In
 # one increment its shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
