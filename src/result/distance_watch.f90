@@ -1,7 +1,7 @@
 !> How far a run is from what it should follow: STEP from its laws, NEWTON from the path of many increments; and how much of the
 !! movement of a stage a default E_u decides.
 module distance_watch
-   use analysis_state, only: analysis_type, path_error_type
+   use analysis_state, only: analysis_type, increment_record
    use joint_values, only: joint_values_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
@@ -24,6 +24,7 @@ module distance_watch
    type, public :: farthest_type
       real(wp) :: relative = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
       integer  :: node = 0                    !! its number; 0: of the path
+      logical  :: follows_path = .false.      !! of an increment that NEWTON has divided along the path
       character(:), allocatable :: quantity, place !! in words
    end type farthest_type
 
@@ -51,11 +52,11 @@ contains
       end do
    end subroutine watch_distances
 
-   !> Note where the ERROR of path is largest, at this PLACE or before. WORDS for a warning where it is above the limit and above
-   !! what was warned of before; '' otherwise.
-   subroutine watch_path(place, error, farthest, words)
+   !> Note where the error of path of an increment, as its RECORD has it, is largest, at this PLACE or before. WORDS for a warning
+   !! where it is above the limit and above what was warned of before; '' otherwise.
+   subroutine watch_path(place, record, farthest, words)
       character(*), intent(in)               :: place
-      type(path_error_type), intent(in)      :: error
+      type(increment_record), intent(in)     :: record
       type(farthest_type), intent(inout)     :: farthest
       character(:), allocatable, intent(out) :: words
       character(27), parameter :: quantities(4) = [character(27) :: 'of the largest lambda', 'of the largest pressure', &
@@ -64,12 +65,15 @@ contains
       integer  :: k
 
       words = ''
-      shares = [error%deflection, error%pressure, error%contact, merge(error%displacement, 0.0_wp, error%slides)]
+      associate (error => record%path_error)
+         shares = [error%deflection, error%pressure, error%contact, merge(error%displacement, 0.0_wp, error%slides)]
+      end associate
       k = maxloc(shares, dim=1)
       if (shares(k) <= farthest%relative) return
       farthest%relative = shares(k)
       farthest%quantity = trim(quantities(k))
       farthest%place = place
+      farthest%follows_path = record%follows_path
       if (shares(k) <= off_path) return
       words = place//': error of path '//percent(shares(k))//' '//farthest%quantity
       if (k < size(shares)) then
@@ -91,7 +95,9 @@ contains
             '; METHOD = NEWTON follows the laws'
       else if (farthest%relative > off_path) then
          words = 'NEWTON is up to '//percent(farthest%relative)//' '//farthest%quantity// &
-                 ' away from the path of many increments, in '//farthest%place//'; without INCR it follows the path'
+                 ' away from the path of many increments, in '//farthest%place//'; '// &
+                 trim(merge('more increments, by INCR, show how far', &
+                            'without INCR it follows the path      ', farthest%follows_path))
       end if
    end function distance_words
 
@@ -147,9 +153,10 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(farthest_type), intent(inout)       :: farthest
 
-      call stream%part('farthest_type', 1)
+      call stream%part('farthest_type', 2)
       call stream%item('relative', farthest%relative)
       call stream%item('node', farthest%node)
+      call stream%item('follows_path', farthest%follows_path)
       call stream%text('quantity', farthest%quantity)
       call stream%text('place', farthest%place)
    end subroutine record_farthest

@@ -98,7 +98,7 @@ contains
          end if
       end associate
       if (method == method_newton) then
-         call watch_path(page%place, analysis%record%path_error, watch%farthest, first)
+         call watch_path(page%place, analysis%record, watch%farthest, first)
          if (first /= '') call warn(watch, '  WARNING: '//upper(first))
       else
          call watch_distances(page%place, model, joints, watch%farthest)

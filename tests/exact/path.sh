@@ -67,6 +67,12 @@ DECKS
    same 'prism: the path has no warning' "$(grep -c 'WARNING.*PATH' "$work/prism_newton.path.out")" 0
 }
 
+# Who has given no INCR is not told to leave it out.
+in_increments flange_pair && {
+   sed 's/^METHOD = NEWTON/&\nPATHTOL = 0.03/' "$work/flange_pair.path.bdf" > "$work/coarse.bdf"
+   run coarse && says 'without INCR: what shows the distance from the path' "$work/coarse.log" 'of the largest pressure away from the path .*; more increments, by INCR, show how far'
+}
+
 # PATHTOL: the smaller, the nearer to many increments, in more parts.
 in_increments cantilever && in_increments cantilever 320 && for tolerance in 1.0-2 1.0-5; do
    sed "s/^METHOD = NEWTON/&\nPATHTOL = $tolerance/" "$work/cantilever.path.bdf" > "$work/path$tolerance.bdf"
