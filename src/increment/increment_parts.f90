@@ -9,7 +9,7 @@ module increment_parts
    use kinds, only: wp
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type, no_bounds, verdict_type
+   use newton_trial, only: attempt_type, most_iterations, no_bounds, verdict_type
    use tolerances, only: least_share
    implicit none
    private
@@ -34,8 +34,8 @@ module increment_parts
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
-   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included,
-   integer, parameter  :: least_to_it = 15        ! for which so many must be left
+   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
+   integer, parameter  :: least_after = 15        ! after the first part that given limits have not borne; and to the last state
 
    !> What the attempts so far tell of the limit load of an increment, with the verdict on the last part that was not borne.
    type, extends(verdict_type) :: limit_search
@@ -61,9 +61,12 @@ contains
       type(analysis_type), allocatable :: whole
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
-      logical  :: agrees, confirms, is_last, moves
+      integer  :: begun
+      logical  :: agrees, confirms, is_last, is_spent, moves
 
       attempt%expected = no_bounds
+      attempt%until = huge(1)
+      begun = analysis%record%n_iterations
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
          if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
@@ -86,16 +89,19 @@ contains
             done = done + part
             analysis%record%n_parts = analysis%record%n_parts + 1
             call go_on(search, done - ends(1), attempt%is_limited, part)
+            if (search%n_moving == 0) attempt%until = huge(1)
             cycle
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
+         moves = attempt%n_moving > 0
+         if (moves) attempt%until = min(attempt%until, max(begun + most_without, analysis%record%n_iterations + least_after))
+         is_spent = analysis%record%n_iterations >= attempt%until
          confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
          agrees = is_expected(attempt)
          is_last = agrees .or. confirms .or. leaves_as_expected(attempt) .or. falls_too(search, attempt) .or. &
-                   search%n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1)))
-         moves = attempt%n_moving > 0
-         if (is_last .and. (moves .or. (search%n_moving > 0 .and. (attempt%leaves > 0 .or. confirms)))) then
-            if (.not. (agrees .or. attempt%tried_all)) then ! all ways have the last word
+                   search%n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1))) .or. is_spent
+         if (is_last .and. (moves .or. (search%n_moving > 0 .and. (attempt%leaves > 0 .or. confirms .or. is_spent)))) then
+            if (.not. (agrees .or. attempt%tried_all .or. is_spent)) then ! all ways have the last word
                search%only = merge(every, others, search%only == straight)
                cycle
             end if
@@ -124,6 +130,7 @@ contains
       if (done < ends(2) .or. .not. allocated(whole)) return
       attempt%is_limited = .false.
       attempt%expected = no_bounds
+      attempt%until = huge(1)
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -199,10 +206,9 @@ contains
       real(wp), intent(inout)               :: done    !! [-]
       type(attempt_type), allocatable :: last
 
-      if (share <= done .or. analysis%record%n_iterations > most_without - least_to_it) return
+      if (share <= done .or. analysis%record%n_iterations > attempt%until - least_after) return
       allocate (last, source=attempt)
       last%only = straight
-      last%most = most_without - analysis%record%n_iterations
       call try_part(model, system, analysis, 1.0_wp - share, last)
       if (.not. last%converged) return
       analysis%record%n_parts = analysis%record%n_parts + 1
@@ -243,14 +249,14 @@ contains
       attempt%verdict_type = verdict_type()
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)), source=0)
       if (.not. allocated(attempt%loose)) allocate (attempt%loose(size(model%joints%list)), source=.false.)
-      if (is_given_up(analysis)) then
-         attempt%trouble = none
-         return
-      end if
+      attempt%trouble = none
+      if (is_given_up(analysis)) return
       ways = [extrapolated, straight, from_best, sticking]
       if (follows_refused(attempt)) ways = [sticking, extrapolated, straight, from_best]
       do k = 1, size(ways)
          way = ways(k)
+         attempt%most = min(most_iterations, attempt%until - analysis%record%n_iterations)
+         if (attempt%most < 1) exit
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
          if (way == straight .and. stays) cycle
          if (attempt%only > 0 .and. way /= attempt%only .or. attempt%only == others .and. way == sticking) cycle
@@ -285,7 +291,8 @@ contains
          end if
          if (allocated(u)) deallocate (u)
       end do
-      if (attempt%only == others .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = before
+      if (attempt%converged .or. attempt%n_moving > 0) return
+      if (attempt%only == others .or. (attempt%only == every .and. attempt%most < most_iterations)) attempt%verdict_type = before
    end subroutine try_part
 
    !> Whether given limits have not borne a larger part than that of ATTEMPT, from an earlier state: the load of ATTEMPT is expected

@@ -46,6 +46,7 @@ module newton_trial
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       real(wp) :: expected(2) = no_bounds         !! bounds of BEARABLE that agree with such a part [-]
       integer  :: most = most_iterations          !! most iterations of the present way
+      integer  :: until = huge(1)                 !! iterations of the increment after which there are no more
       integer  :: only = 0                        !! the ways that are tried, see increment_parts
       logical  :: tried_all = .false.             !! no way is left that could bear the part
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
