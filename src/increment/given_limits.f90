@@ -34,6 +34,7 @@ module given_limits
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
+   integer, parameter  :: most_growing = 1     ! limits one behind the other with a greater residual each: they do not settle
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
 
 contains
@@ -51,9 +52,11 @@ contains
       attempt%n_returns = 0
       attempt%verdict_type = verdict_type()
       attempt%n_still = 0
+      attempt%n_growing = 0
       attempt%asked = attempt%load - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, attempt%asked)
       if (attempt%from_best) then
+         attempt%to_solve = huge(1.0_wp)
          call give_limits(model, system, analysis, attempt, now)
          return
       end if
@@ -103,9 +106,11 @@ contains
          where (attempt%seen%branch == branch_open) attempt%seen = attempt%last
          attempt%seen%pressure = 0.5_wp*(attempt%last%pressure + now%states%normal%pressure)
       end if
+      if (attempt%sticks) attempt%to_solve = huge(1.0_wp) ! that of no limits
       attempt%sticks = .false.
       attempt%n_limits = attempt%n_limits + 1
       call evaluate(model, system, attempt, analysis, now)
+      attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > attempt%to_solve)
       attempt%to_solve = now%size
       attempt%since = attempt%iteration
       attempt%released = 0.0_wp
@@ -298,9 +303,9 @@ contains
       attempt%n_limits = settled - 1 ! two problems more before the exact laws try again
    end function falls_back
 
-   !> End the ATTEMPT where the body moves on under the present limits, where many iterations have not solved their problem, where the
-   !! exact laws have failed to finish again and again, or where a joint leaves its place: its ends have moved by more than the largest
-   !! joint is wide.
+   !> End the ATTEMPT where the body moves on under the present limits, where many iterations have not solved their problem, where
+   !! limits do not settle or the exact laws have failed to finish again and again, or where a joint leaves its place: its ends have
+   !! moved by more than the largest joint is wide.
    subroutine judge_limits(model, system, analysis, now, attempt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -310,7 +315,7 @@ contains
       real(wp) :: width
       integer  :: i
 
-      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. &
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. attempt%n_growing > most_growing .or. &
                      attempt%iteration - attempt%since > patience .or. attempt%n_returns > most_returns
       width = joint_width(model)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return

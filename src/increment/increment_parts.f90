@@ -35,7 +35,8 @@ module increment_parts
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
-   integer, parameter  :: least_after = 15        ! after the first part that given limits have not borne; and to the last state
+   integer, parameter  :: least_after = 12        ! after the first part that given limits have not borne
+   integer, parameter  :: least_to_it = 8         ! of these for the last state
 
    !> What the attempts so far tell of the limit load of an increment, with the verdict on the last part that was not borne.
    type, extends(verdict_type) :: limit_search
@@ -61,11 +62,12 @@ contains
       type(analysis_type), allocatable :: whole
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
-      integer  :: begun
+      integer  :: at_most, begun
       logical  :: agrees, confirms, is_last, is_spent, moves
 
       attempt%expected = no_bounds
       attempt%until = huge(1)
+      at_most = huge(1)
       begun = analysis%record%n_iterations
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
@@ -84,18 +86,20 @@ contains
          if (done > ends(1) .and. attempt%is_limited) & ! without a limit load below zero: given limits begin, nothing agrees
             attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
          attempt%only = search%only
+         attempt%until = at_most
+         if (search%n_moving > 0 .and. .not. done > ends(1)) attempt%until = at_most - least_to_it
          call try_part(model, system, analysis, left, attempt)
          if (attempt%converged) then
             done = done + part
             analysis%record%n_parts = analysis%record%n_parts + 1
             call go_on(search, done - ends(1), attempt%is_limited, part)
-            if (search%n_moving == 0) attempt%until = huge(1)
+            if (search%n_moving == 0) at_most = huge(1)
             cycle
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          moves = attempt%n_moving > 0
-         if (moves) attempt%until = min(attempt%until, max(begun + most_without, analysis%record%n_iterations + least_after))
-         is_spent = analysis%record%n_iterations >= attempt%until
+         if (moves) at_most = min(at_most, max(begun + most_without, analysis%record%n_iterations + least_after))
+         is_spent = analysis%record%n_iterations >= min(at_most, attempt%until)
          confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
          agrees = is_expected(attempt)
          is_last = agrees .or. confirms .or. leaves_as_expected(attempt) .or. falls_too(search, attempt) .or. &
@@ -110,9 +114,13 @@ contains
             if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
                attempt%leaves = search%leaves
+               if (is_spent .and. .not. moves .and. search%limit > done + part - ends(1)) & ! less was not borne
+                  attempt%missing = search%missing*(1.0_wp - done - part)/(1.0_wp - ends(1) - search%limit)
             end if
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
+            attempt%is_unsure = is_spent .and. .not. (agrees .or. confirms)
+            attempt%until = at_most
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit
          else if ((moves .or. attempt%leaves > 0) .and. .not. is_last) then
@@ -206,7 +214,7 @@ contains
       real(wp), intent(inout)               :: done    !! [-]
       type(attempt_type), allocatable :: last
 
-      if (share <= done .or. analysis%record%n_iterations > attempt%until - least_after) return
+      if (share <= done .or. analysis%record%n_iterations > attempt%until - least_to_it) return
       allocate (last, source=attempt)
       last%only = straight
       call try_part(model, system, analysis, 1.0_wp - share, last)

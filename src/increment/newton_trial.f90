@@ -77,6 +77,7 @@ module newton_trial
       logical  :: sticks = .false.                !! nothing slips
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
+      integer  :: n_growing = 0                   !! the last ones that were farther off than those before
       integer  :: since = 0                       !! iteration at which the present ones were given
       real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]
@@ -86,6 +87,7 @@ module newton_trial
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration
       type(failure_type) :: trouble               !! a matrix that could not be factorised
+      logical  :: is_unsure = .false.             !! the iterations have ended before a second estimate of the limit load agreed
       real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
       logical, allocatable :: loose(:)            !! joints that are open or slip entirely at the end
       integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end

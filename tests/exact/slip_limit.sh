@@ -53,6 +53,44 @@ run limit_falling 3
 near 'the pressure falls: missing' "$(missing limit_falling)" 100-20 2e-2
 near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
 
+# A slide that wedges: a taper, half of it, in its seat with an interference of 8 micrometres, pulled by FORCE. Sticking, it bears N (MU - SLOPE)/(1 +
+# MU SLOPE), N of the joint at rest. As the taper comes out the pressure falls, and limits given by one state are too high in the next.
+taper() { # NAME MU SLOPE SHEAR_STIFFNESS FORCE
+   {
+      echo 'METHOD = NEWTON;MODEL = PLANE;SPC = 1;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;BEGIN BULK;MAT1,1,210000.,,0.3;PSHELL,1,1,10.'
+      awk -v slope="$3" -v force="$5" 'BEGIN {
+         for (i = 0; i <= 12; i++) {
+            y = 25 + slope*10*i
+            for (j = 0; j <= 3; j++)
+               printf "GRID,%d,,%.1f,%.6f;GRID,%d,,%.1f,%.6f;", 100*i + j + 1, 10*i, y*j/3, 100*i + j + 51, 10*i, y + (60 - y)*j/3
+            printf "SPC1,1,2,%d;SPC1,1,12,%d;", 100*i + 1, 100*i + 54
+            if (i == 12) break
+            for (j = 1; j <= 3; j++) for (a = 100*i + j; a <= 100*i + j + 50; a += 50)
+               printf "CQUAD4,%d,1,%d,%d,%d,%d;", 10000 + a, a, a + 100, a + 101, a + 1
+            printf "CBAR,%d,20,%d,%d;CBAR,%d,21,%d,%d;", 30000 + i, 100*i + 4, 100*i + 104, 40000 + i, 100*i + 51, 100*i + 151
+         }
+         for (j = 1; j <= 4; j++) printf "FORCE,1,120%d,,-1.,1.,0.;FORCE,2,120%d,,%s,1.,0.;", j, j, force/4 "."
+      }'
+      echo "PMARK,20;PMARK,21;JOINT,1,1,20,21;PJOINT,1,1,2,,$2;JGAP,1,CONST,-0.008;JNORM,1,1.-4,0.5,1.+6;JSHEAR,2,$4;ENDDATA"
+   } | cards "$1"
+   rm -f "$work/$1".*.csv "$work/$1.out"
+   run "$1" 3
+}
+while read -r mu slope stiffness force; do
+   taper taper $mu $slope $stiffness $force
+   bears=$(value taper rows 'stage = 1' print 'sum(force)')
+   bears=$(awk "BEGIN { print $bears*($mu - $slope)/(1 + $mu*$slope) }")
+   holds "a taper of $slope with MU $mu pulled by $force: missing" "$(missing taper) = $force - $bears within 0.1*$force"
+   holds "... its last state" "0.4*$bears < $(last_state taper)*$force and $(last_state taper)*$force < 1.05*$bears"
+   holds "... iterations" "0 < $(iterations taper 2) and $(iterations taper 2) <= 60"
+done << 'END'
+0.15 0.025 2.+5 20000
+0.15 0.1   2.+4 20000
+0.08 0.05  2.+3 6000
+0.15 0.1   2.+4 6000
+END
+says 'a taper that comes out: what the message leaves open' "$work/taper.log" '; the limit load is not confirmed, more increments show it;'
+
 # A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. In
 # one increment its shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
 cards oblique <<END
