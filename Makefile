@@ -202,7 +202,7 @@ $(BUILD)/compare/%.o: tests/compare/%.f90 $(RELEASE_STAMP)
 	$(call compile,$(FC) $(FFLAGS_RELEASE) -J$(@D) -c $<)
 
 .PHONY: test
-test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)
+test: bin/jointfem bin/jointfit $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)
 	@if pkg-config --exists petsc 2> /dev/null && command -v mpirun > /dev/null; then $(MAKE) --no-print-directory mpi; fi
 	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD) bin/jointfem_mpi
 

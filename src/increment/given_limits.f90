@@ -34,7 +34,7 @@ module given_limits
    integer, parameter  :: most_trials = 20     ! of a line search
    integer, parameter  :: patience = 40        ! iterations in which a problem is solved
    integer, parameter  :: most_returns = 10    ! of the exact laws: their limits have no equilibrium in common
-   integer, parameter  :: most_growing = 1     ! limits one behind the other with a greater residual each: they do not settle
+   integer, parameter  :: diverging = 2        ! limits one behind the other, each with a greater residual than the one before
    integer, parameter  :: settled = 2          ! limits after which the exact laws try to finish
 
 contains
@@ -110,7 +110,7 @@ contains
       attempt%sticks = .false.
       attempt%n_limits = attempt%n_limits + 1
       call evaluate(model, system, attempt, analysis, now)
-      attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > attempt%to_solve)
+      attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > max(attempt%to_solve, analysis%tolerance))
       attempt%to_solve = now%size
       attempt%since = attempt%iteration
       attempt%released = 0.0_wp
@@ -304,7 +304,7 @@ contains
    end function falls_back
 
    !> End the ATTEMPT where the body moves on under the present limits, where many iterations have not solved their problem, where
-   !! limits do not settle or the exact laws have failed to finish again and again, or where a joint leaves its place: its ends have
+   !! limits diverge or the exact laws have failed to finish again and again, or where a joint leaves its place: its ends have
    !! moved by more than the largest joint is wide.
    subroutine judge_limits(model, system, analysis, now, attempt)
       type(model_type), intent(in)       :: model
@@ -315,7 +315,7 @@ contains
       real(wp) :: width
       integer  :: i
 
-      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. attempt%n_growing > most_growing .or. &
+      attempt%ends = attempt%ends .or. attempt%runs .or. attempt%n_still > 1 .or. attempt%n_growing >= diverging .or. &
                      attempt%iteration - attempt%since > patience .or. attempt%n_returns > most_returns
       width = joint_width(model)
       if (attempt%ends .or. .not. (allocated(attempt%seen) .and. width > 0.0_wp)) return

@@ -1,7 +1,7 @@
 !> The parts of an increment of METHOD = NEWTON, and the ways of an attempt at a part: straight laws, then given limits of friction.
 !! A part that does not converge is halved. Where given limits do not bear it, the share that they bear says where its limit load is:
 !! the increment goes on to a state below it, and from there to one above it by all ways. Where this fails too and gives the same
-!! limit load, there is no equilibrium.
+!! limit load, there is no equilibrium. Where two estimates do not agree in 60 iterations, the increment ends without a confirmed one.
 module increment_parts
    use analysis_state, only: analysis_type
    use equation_solver, only: failure_type
@@ -35,13 +35,14 @@ module increment_parts
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
-   integer, parameter  :: least_after = 12        ! after the first part that given limits have not borne
-   integer, parameter  :: least_to_it = 8         ! of these for the last state
+   integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
+   integer, parameter  :: least_to_it = 8         ! iterations that the last state needs; kept for it where nothing is borne
 
    !> What the attempts so far tell of the limit load of an increment, with the verdict on the last part that was not borne.
    type, extends(verdict_type) :: limit_search
       real(wp) :: limit = 0.0_wp              !! estimate of the last part that was not borne, as a share of the load; 0: none [-]
       real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
+      real(wp) :: unborne = huge(1.0_wp)      !! the least share for which an attempt under given limits FAILS [-]
       integer  :: n_cut = 0                   !! parts not borne since one was
       integer  :: only = 0                    !! way of the next attempt; 0: all, as far as needed; EVERY or OTHERS
    end type limit_search
@@ -51,7 +52,7 @@ contains
    !> Go from equilibrium to equilibrium between ENDS of the increment by ATTEMPTs: commit an attempt that converges, divide one that
    !! does not. What was divided is repeated as a whole, from its start and the displacements that its parts have reached: the laws
    !! depend on the path, and rounding decides on the division. If the whole does not converge, the parts stand. With a GUESS
-   !! nothing is divided.
+   !! nothing is divided. Once given limits have not borne a part, the increment ends after MOST_WITHOUT iterations.
    subroutine reach(model, analysis, system, attempt, ends, guess)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis
@@ -63,10 +64,11 @@ contains
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
       integer  :: at_most, begun
-      logical  :: agrees, confirms, is_last, is_spent, moves
+      logical  :: agrees, confirms, is_confirmed, is_last, is_spent, moves
 
       attempt%expected = no_bounds
       attempt%until = huge(1)
+      attempt%is_unsure = .false.
       at_most = huge(1)
       begun = analysis%record%n_iterations
       if (present(guess)) then
@@ -98,12 +100,15 @@ contains
          end if
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          moves = attempt%n_moving > 0
-         if (moves) at_most = min(at_most, max(begun + most_without, analysis%record%n_iterations + least_after))
+         if (attempt%fails) search%unborne = min(search%unborne, done + part - ends(1))
+         if (moves) at_most = min(at_most, max(begun + most_without - 1, analysis%record%n_iterations + least_after)) ! 1: see REFINE
          is_spent = analysis%record%n_iterations >= min(at_most, attempt%until)
-         confirms = done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
+         confirms = (moves .or. .not. is_spent) .and. &
+                    done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))
          agrees = is_expected(attempt)
-         is_last = agrees .or. confirms .or. leaves_as_expected(attempt) .or. falls_too(search, attempt) .or. &
-                   search%n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1))) .or. is_spent
+         is_confirmed = agrees .or. confirms .or. leaves_as_expected(attempt) .or. falls_too(search, attempt)
+         is_last = is_confirmed .or. is_spent .or. &
+                   search%n_cut == most_cuts .or. part <= max(least_share, near_limit*(done - ends(1)))
          if (is_last .and. (moves .or. (search%n_moving > 0 .and. (attempt%leaves > 0 .or. confirms .or. is_spent)))) then
             if (.not. (agrees .or. attempt%tried_all .or. is_spent)) then ! all ways have the last word
                search%only = merge(every, others, search%only == straight)
@@ -114,12 +119,11 @@ contains
             if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
                attempt%leaves = search%leaves
-               if (is_spent .and. .not. moves .and. search%limit > done + part - ends(1)) & ! less was not borne
-                  attempt%missing = search%missing*(1.0_wp - done - part)/(1.0_wp - ends(1) - search%limit)
+               if (.not. (agrees .or. moves)) attempt%missing = missing_by_parts(search, done - ends(1), 1.0_wp - ends(1))
             end if
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
-            attempt%is_unsure = is_spent .and. .not. (agrees .or. confirms)
+            attempt%is_unsure = is_spent .and. .not. is_confirmed
             attempt%until = at_most
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit
@@ -204,6 +208,19 @@ contains
       attempt%is_limited = .true.
    end subroutine cut
 
+   !> The force that is missing at the end of the load, WHOLE shares after the start of the increment: that of SEARCH, whose limit load
+   !! is too high where less was not borne, and too low where more was. Beyond the limit load the force grows with the load. It stands
+   !! where SEARCH has no limit load, and where a body falls that the load does not push.
+   pure real(wp) function missing_by_parts(search, done, whole) result(missing)
+      type(limit_search), intent(in) :: search
+      real(wp), intent(in)           :: done  !! since the start of the increment [-]
+      real(wp), intent(in)           :: whole !! likewise
+
+      missing = search%missing
+      if (search%limit > 0.0_wp .and. .not. search%falls) missing = missing* &
+         (whole - min(max(search%limit, done), search%unborne))/max(whole - search%limit, least_share)
+   end function missing_by_parts
+
    !> Go on from DONE to SHARE of the increment, just below the limit load, if straight laws lead there.
    subroutine approach_limit(model, system, analysis, attempt, share, done)
       type(model_type), intent(in)          :: model
@@ -251,6 +268,7 @@ contains
       attempt%least = huge(1.0_wp)
       first = 0.0_wp
       attempt%converged = .false.
+      attempt%fails = .false.
       stays = .false.
       attempt%tried_all = attempt%only <= 0
       before = attempt%verdict_type
@@ -290,6 +308,7 @@ contains
          if (way == from_best) u = attempt%best
          call iterate(model, system, analysis, attempt, u)
          if (attempt%converged) exit
+         attempt%fails = attempt%fails .or. (attempt%with_limits .and. attempt%iteration < attempt%most)
          if (way < from_best) first = attempt%at_start
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          if (is_expected(attempt) .or. is_clear(attempt)) exit
@@ -299,8 +318,7 @@ contains
          end if
          if (allocated(u)) deallocate (u)
       end do
-      if (attempt%converged .or. attempt%n_moving > 0) return
-      if (attempt%only == others .or. (attempt%only == every .and. attempt%most < most_iterations)) attempt%verdict_type = before
+      if (attempt%only == others .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = before
    end subroutine try_part
 
    !> Whether given limits have not borne a larger part than that of ATTEMPT, from an earlier state: the load of ATTEMPT is expected

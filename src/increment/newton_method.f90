@@ -271,9 +271,9 @@ contains
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
             if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
-            if (attempt%is_unsure) words = words//'; the limit load is not confirmed, more increments show it'
             if (.not. slips .and. all(attempt%worst > 0)) &
                words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
+            if (attempt%is_unsure) words = words//'; the limit load is not confirmed: more increments show where it is'
          end associate
       else if (attempt%imprecise) then
          words = words//': '//no_balance

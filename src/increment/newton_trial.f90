@@ -27,7 +27,7 @@ module newton_trial
       integer  :: leaves = 0                      !! the joint that moved most along them, or left its place, 0: none
       logical  :: falls = .false.                 !! the body moves by itself: most of the work is not that of the load
       real(wp) :: bearable = 1.0_wp               !! share of the load of the part that they bear [-]
-      real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment, in the largest part tried [force]
+      real(wp) :: missing = 0.0_wp                !! force that they lack at the end of the increment [force]
    end type verdict_type
 
    !> One attempt at a part of the increment.
@@ -46,7 +46,7 @@ module newton_trial
       logical  :: is_limited = .false.            !! given limits have not borne a part of the increment
       real(wp) :: expected(2) = no_bounds         !! bounds of BEARABLE that agree with such a part [-]
       integer  :: most = most_iterations          !! most iterations of the present way
-      integer  :: until = huge(1)                 !! iterations of the increment after which there are no more
+      integer  :: until = huge(1)                 !! count of iterations of the increment at which attempts end
       integer  :: only = 0                        !! the ways that are tried, see increment_parts
       logical  :: tried_all = .false.             !! no way is left that could bear the part
       logical  :: from_best = .false.             !! the first ones are those of BEST; otherwise nothing slips at first
@@ -86,8 +86,9 @@ module newton_trial
       ! the outcome
       logical  :: converged = .false.
       logical  :: ends = .false.                  !! no further iteration
+      logical  :: fails = .false.                 !! given limits, not cut short, have led to no equilibrium
       type(failure_type) :: trouble               !! a matrix that could not be factorised
-      logical  :: is_unsure = .false.             !! the iterations have ended before a second estimate of the limit load agreed
+      logical  :: is_unsure = .false.             !! no second estimate has confirmed the limit load in so many iterations
       real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
       logical, allocatable :: loose(:)            !! joints that are open or slip entirely at the end
       integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end

@@ -9,7 +9,7 @@ module distance_watch
    use normal_stiffness, only: branch_load, branch_open
    use restart_stream, only: restart_stream_type
    use stage_plan, only: node_pair
-   use text_tools, only: integer_text, real_text
+   use text_tools, only: integer_text, one_of, real_text
    use watched_nodes, only: find_watched, watch_answer, watch_state
    implicit none
    private
@@ -96,8 +96,7 @@ contains
       else if (farthest%relative > off_path) then
          words = 'NEWTON is up to '//percent(farthest%relative)//' '//farthest%quantity// &
                  ' away from the path of many increments, in '//farthest%place//'; '// &
-                 trim(merge('more increments, by INCR, show how far', &
-                            'without INCR it follows the path      ', farthest%follows_path))
+                 one_of(farthest%follows_path, 'more increments, by INCR, show how far', 'without INCR it follows the path')
       end if
    end function distance_words
 
