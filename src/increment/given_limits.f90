@@ -111,6 +111,12 @@ contains
       attempt%n_limits = attempt%n_limits + 1
       call evaluate(model, system, attempt, analysis, now)
       attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > max(attempt%to_solve, analysis%tolerance))
+      if (attempt%n_growing == diverging) then ! the body goes on the way that it went since the last limits
+         associate (way => now%u - attempt%u_at_limits)
+            attempt%lacking = missing_force(analysis, attempt, way, sum(now%residual*way, mask=.not. analysis%held))
+         end associate
+      end if
+      attempt%u_at_limits = now%u
       attempt%to_solve = now%size
       attempt%since = attempt%iteration
       attempt%released = 0.0_wp
@@ -254,12 +260,24 @@ contains
          attempt%bearable = bearable
          whole = sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
          attempt%falls = whole < most_of_work*work
-         attempt%missing = (work + attempt%left*whole)/maxval(abs(direction))
+         attempt%missing = missing_force(analysis, attempt, direction, work)
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
 
    end subroutine minimise
+
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, on which the unbalanced forces now do
+   !! WORK, per unit of its largest component.
+   pure real(wp) function missing_force(analysis, attempt, direction, work)
+      type(analysis_type), intent(in) :: analysis
+      type(attempt_type), intent(in)  :: attempt
+      real(wp), intent(in)            :: direction(:, :) !! (dimension, retained) [length]
+      real(wp), intent(in)            :: work            !! [force*length]
+
+      missing_force = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held)) &
+                      /max(maxval(abs(direction)), tiny(1.0_wp))
+   end function missing_force
 
    !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.
    pure real(wp) function step_off_the_joint(model, system, direction) result(step)

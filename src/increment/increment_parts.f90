@@ -69,6 +69,7 @@ contains
       attempt%expected = no_bounds
       attempt%until = huge(1)
       attempt%is_unsure = .false.
+      attempt%lacking = 0.0_wp
       at_most = huge(1)
       begun = analysis%record%n_iterations
       if (present(guess)) then

@@ -257,7 +257,8 @@ contains
       type(attempt_type), intent(in)    :: attempt
       type(failure_type), intent(inout) :: failure
       character(:), allocatable :: words
-      integer :: at, worst
+      real(wp) :: missing
+      integer  :: at, worst
 
       words = attempt%where//': no equilibrium'
       if (is_given_up(analysis)) words = attempt%where//': given up after '// &
@@ -270,7 +271,8 @@ contains
                     one_of(slips, ' slips or is open at all its nodes', ' moves without finding hold')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
-            if (attempt%missing > 0.0_wp) words = words//': '//real_text(attempt%missing)//' of force are missing'
+            missing = merge(attempt%missing, attempt%lacking, attempt%missing > 0.0_wp)
+            if (missing > 0.0_wp) words = words//': '//real_text(missing)//' of force are missing'
             if (.not. slips .and. all(attempt%worst > 0)) &
                words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
             if (attempt%is_unsure) words = words//'; the limit load is not confirmed: more increments show where it is'

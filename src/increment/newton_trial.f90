@@ -78,6 +78,8 @@ module newton_trial
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
       integer  :: n_growing = 0                   !! the last ones that were farther off than those before
+      real(wp), allocatable :: u_at_limits(:, :)  !! displacements at which the present ones were given, (dimension, retained) [length]
+      real(wp) :: lacking = 0.0_wp                !! force that is missing at the end of the increment where limits diverge [force]
       integer  :: since = 0                       !! iteration at which the present ones were given
       real(wp) :: released = 0.0_wp               !! energy that the last step under them has released [force*length]
       real(wp), allocatable :: asked(:, :)        !! the load that the part adds, (dimension, retained) [force]

@@ -89,6 +89,11 @@ done << 'END'
 0.15 0.1   2.+4 6000
 0.08 0.05  2.+3 6000
 END
+# in increments of a fifth its limits diverge, and no body is seen to move on: what 0.2 of the pull has more than the last state
+sed -i 's/^METHOD = NEWTON/&\nINCR = 9/; s/^ENDDATA/JINCR,9,5,ARITH,0.2\n&/' "$work/taper.bdf"
+rm -f "$work"/taper.*.csv "$work/taper.out"
+run taper 3
+near 'limits diverge: missing' "$(missing taper)" "6000*(0.2 - $(last_state taper))" 0.1
 same 'a limit load that is confirmed is not called in question' "$(cat "$work"/limit_*.log | grep -c 'not confirmed')" 0
 
 # A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. In
