@@ -113,7 +113,8 @@ contains
       attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > max(attempt%to_solve, analysis%tolerance))
       if (attempt%n_growing == diverging) then ! the body goes on the way that it went since the last limits
          associate (way => now%u - attempt%u_at_limits)
-            attempt%lacking = missing_force(analysis, attempt, way, sum(now%residual*way, mask=.not. analysis%held))
+            attempt%lacking = missing_force(attempt, way, sum(now%residual*way, mask=.not. analysis%held), &
+                                            sum(analysis%change*way, mask=.not. analysis%held))
          end associate
       end if
       attempt%u_at_limits = now%u
@@ -260,23 +261,21 @@ contains
          attempt%bearable = bearable
          whole = sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
          attempt%falls = whole < most_of_work*work
-         attempt%missing = missing_force(analysis, attempt, direction, work)
+         attempt%missing = missing_force(attempt, direction, work, whole)
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
 
    end subroutine minimise
 
-   !> The force that is missing at the end of the increment for the movement along DIRECTION, on which the unbalanced forces now do
-   !! WORK, per unit of its largest component.
-   pure real(wp) function missing_force(analysis, attempt, direction, work)
-      type(analysis_type), intent(in) :: analysis
-      type(attempt_type), intent(in)  :: attempt
-      real(wp), intent(in)            :: direction(:, :) !! (dimension, retained) [length]
-      real(wp), intent(in)            :: work            !! [force*length]
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component.
+   pure real(wp) function missing_force(attempt, direction, work, whole)
+      type(attempt_type), intent(in) :: attempt
+      real(wp), intent(in)           :: direction(:, :) !! (dimension, retained) [length]
+      real(wp), intent(in)           :: work            !! of the unbalanced forces now [force*length]
+      real(wp), intent(in)           :: whole           !! of the load of the whole increment [force*length]
 
-      missing_force = (work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held)) &
-                      /max(maxval(abs(direction)), tiny(1.0_wp))
+      missing_force = (work + attempt%left*whole)/max(maxval(abs(direction)), tiny(1.0_wp))
    end function missing_force
 
    !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.

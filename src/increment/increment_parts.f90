@@ -102,7 +102,7 @@ contains
          if (.not. allocated(whole)) allocate (whole, source=analysis) ! nothing is committed yet
          moves = attempt%n_moving > 0
          if (attempt%fails) search%unborne = min(search%unborne, done + part - ends(1))
-         if (moves) at_most = min(at_most, max(begun + most_without - 1, analysis%record%n_iterations + least_after)) ! 1: see REFINE
+         if (moves) at_most = min(at_most, max(begun + most_without - 1, analysis%record%n_iterations + least_after)) ! 1 to refine
          is_spent = analysis%record%n_iterations >= min(at_most, attempt%until)
          confirms = (moves .or. .not. is_spent) .and. &
                     done + part - ends(1) > search%refused - least_share .and. is_near(search, done - ends(1))

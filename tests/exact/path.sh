@@ -67,7 +67,7 @@ DECKS
    same 'prism: the path has no warning' "$(grep -c 'WARNING.*PATH' "$work/prism_newton.path.out")" 0
 }
 
-# Who has given no INCR is not told to leave it out.
+# A deck without INCR is not told to leave INCR out.
 [ -e "$work/flange_pair.path.bdf" ] && {
    sed 's/^METHOD = NEWTON/&\nPATHTOL = 0.03/' "$work/flange_pair.path.bdf" > "$work/coarse.bdf"
    run coarse && says 'without INCR: what shows the distance from the path' "$work/coarse.log" 'of the largest pressure away from the path .*; more increments, by INCR, show how far'

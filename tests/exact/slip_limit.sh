@@ -53,7 +53,7 @@ run limit_falling 3
 near 'the pressure falls: missing' "$(missing limit_falling)" 100-20 2e-2
 near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
 
-# A slide that wedges: a taper, half of it, in its seat with an interference of 8 micrometres, pulled by FORCE. Sticking, it bears N (MU - SLOPE)/(1 +
+# One half of a taper in its seat, with an interference of 8 micrometres, pulled by FORCE. While it sticks, the taper bears N (MU - SLOPE)/(1 +
 # MU SLOPE), N of the joint at rest. As the taper comes out the pressure falls, and limits given by one state are too high in the next.
 taper() { # NAME MU SLOPE SHEAR_STIFFNESS FORCE
    {

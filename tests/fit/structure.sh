@@ -4,7 +4,8 @@
 #
 #    structure.sh JOINTFIT JOINTFEM [FIRST LAST]
 #
-# Beside JOINTFEM there is a jointfit without run-time checks. FIRST LAST: the random structures of these numbers (default: 1 to 4; `make structures` runs 1 to 50).
+# Beside JOINTFEM there is a jointfit without run-time checks.
+# FIRST LAST: the random structures of these numbers (default: 1 to 4; `make structures` runs 1 to 50).
 set -u
 export LC_ALL=C
 
