@@ -98,6 +98,7 @@ contains
                call find_start(checked, plan, mesh, history, joints, sets)
                call errors%warn(repeated_words(mesh))
                call errors%warn(crack_words(mesh, joints, sets(1)))
+               if (any(is_held(sets))) call errors%warn('all components of all nodes are supported: nothing moves but by SPCD')
                call watch_units(deck, joints, errors)
                call take_parts(joints, sets, history, model)
                if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(waves, model, errors)
@@ -106,6 +107,13 @@ contains
       end associate
       if (allocated(errors%warnings)) call move_alloc(errors%warnings, model%warnings)
    end subroutine build_model
+
+   !> Whether no component is free under the supports of FREEDOMS.
+   elemental logical function is_held(freedoms)
+      type(freedoms_type), intent(in) :: freedoms
+
+      is_held = .not. any(.not. freedoms%held .and. spread(freedoms%used, 1, size(freedoms%held, 1)))
+   end function is_held
 
    !> Move the parts into MODEL; a copy of the joints would take time.
    subroutine take_parts(joints, sets, history, model)

@@ -302,7 +302,7 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: u(:, :) !! [length]
 
-      noise = rounding_of_forces*system%stiffest*maxval(abs(u))
+      noise = rounding_of_forces*system%stiffest*max(0.0_wp, maxval(abs(u)))
    end function force_noise
 
    !> Update the largest pressure and deflection so far.

@@ -40,8 +40,8 @@ contains
       wanted = solver_auto
       if (present(solver)) wanted = solver
       n = sum(merge(count(.not. model%freedoms%held, dim=1), 0, model%freedoms%used))
-      if (n == 0) then
-         call failure%raise('nothing to solve: all components of all nodes are supported')
+      if (n == 0 .and. present(shift)) then
+         call failure%raise('nothing vibrates: all components of all nodes are supported')
          return
       end if
       call build_node_graph(model, graph, with_masses=present(shift))

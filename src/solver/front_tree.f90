@@ -218,8 +218,11 @@ contains
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: equations(:)
 
-      f = minval(equations, mask=equations > 0)
-      f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
+      integer :: first
+
+      f = 0
+      first = minval(equations, mask=equations > 0)
+      if (first <= tree%n) f = tree%of_equation(first)
    end function front_of
 
    !> The rows in FRONT of ascending EQUATIONS, its pivots or rows.

@@ -114,7 +114,7 @@ contains
          rows = [self%number(:, nodes_of_unknowns(model%freedoms, e))]
          call scatter(self%body, rows, k(:size(rows), :size(rows)))
       end do
-      self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))
+      self%stiffest = max(0.0_wp, maxval(self%body%values(self%body%diagonal(1:))))
    end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)

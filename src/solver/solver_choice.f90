@@ -38,7 +38,7 @@ contains
       integer  :: best
       logical  :: is_skyline
 
-      call choose_distributed(wanted, system)
+      if (n > 0) call choose_distributed(wanted, system)
       if (allocated(system)) return
       is_skyline = wanted == solver_skyline
       if (wanted == solver_auto .and. n <= most_tried) then

@@ -135,7 +135,7 @@ contains
             diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
          end associate
       end do
-      self%stiffest = maxval(self%diagonal)
+      self%stiffest = max(0.0_wp, maxval(self%diagonal))
       self%d = sliding_stiffness*self%diagonal(self%sliding)
    end subroutine form_bodies
 

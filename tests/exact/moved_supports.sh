@@ -81,3 +81,40 @@ moved_block pushed_by_spc 6 4 0.1 0.0:-5.0E-3 && {
    near 'pressed by D of SPC without LOAD: p' "$(cell pushed_by_spc 1 1 1 pressure)" "$(in_series 5.0E-3)" 1e-9
    same 'that deck has no SPCD' "$(grep -c '^SPCD' "$work/pushed_by_spc.bdf")$(grep -c '^SPC,1,.*-5' "$work/pushed_by_spc.bdf")" 07
 }
+
+# No unknown is left: two bodies with all nodes held, the upper one moved, follow the law of the joint between them; one that is
+# stretched and one that is heated have the stress of the exact solution
+blocks='GRID,1,,0.,0.,0.;GRID,2,,1.,0.,0.;GRID,3,,1.,1.,0.;GRID,4,,0.,1.,0.;GRID,5,,0.,0.,1.;GRID,6,,1.,0.,1.;GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.;CHEXA,1,1,1,2,3,4,5,6;+,7,8;PSOLID,1,1;MAT1,1,2.1+5,,0.3,,1.2-5,0.;SPC1,1,123,1,THRU,4;SPC1,2,123,5,THRU,8;SPCADD,9,1,2'
+raised() { for node in ${2//,/ }; do printf 'SPCD,%s,%s,3,%s\n' "$1" "$node" "$3"; done; }
+for solver in SKYLINE TREE; do
+   for method in STEP NEWTON; do
+      name=all_held_${solver}_$method
+      { echo "METHOD = $method;SOLVER = $solver;SPC = 9;SUBCASE 1;LOAD = 2;SUBCASE 2;LOAD = 5;TEMP(LOAD) = 3;BEGIN BULK;$blocks"
+        raised 2 5,6,7,8 .001
+        echo 'TEMPD,3,100.;FORCE,5,7,,5.,1.;ENDDATA'; } | cards $name
+      run $name && says "$name" "$work/$name.log" 'all components of all nodes are supported' || continue
+      near "$name, stretched: force" "$("$query" "$work/$name.reaction.csv" rows 'stage = 1 and id = 2' print force_z)" \
+           '1E-3*2.1E5*0.7/(1.3*0.4)' 1e-12
+      near "$name, heated: force" "$("$query" "$work/$name.reaction.csv" rows 'stage = 2 and id = 1' print force_z)" \
+           '2.1E5*1.2E-3/0.4' 1e-12
+      near "$name, pushed: force" "$("$query" "$work/$name.reaction.csv" rows 'stage = 2 and id = 2' print force_x)" -5 1e-12
+   done
+   for method in NEWTON BACK; do
+      name=law_held_${solver}_$method
+      { echo "METHOD = $method;SOLVER = $solver;SPC = 9;SUBCASE 1;LOAD = 2;INCR = 3"
+        [ $method = NEWTON ] && echo 'SUBCASE 2;LOAD = 4'
+        echo "BEGIN BULK;$blocks;CHEXA,2,1,15,16,17,18,25,26;+,27,28;JINCR,3,4,ARITH,.25"
+        for k in 5 6 7 8; do
+           sed -n "s/^GRID,$k,,\(.*,\)1\.\$/GRID,1$k,,\11.;GRID,2$k,,\12.;CJOINT,10$k,1,$k,1$k,.25,0.,0.,1./p" <<< "$(tr ';' '\n' <<< "$blocks")"
+        done
+        echo 'PJOINT,1,1;JNORM,1,1.-3,.5;SPC1,1,123,15,THRU,18;SPC1,1,123,25,THRU,28'
+        raised 2 15,16,17,18,25,26,27,28 -.004
+        raised 4 15,16,17,18,25,26,27,28 .001
+        echo ENDDATA; } | cards $name
+      run $name || continue
+      [ $method = BACK ] && near "$name: p" "$(cell $name 1 1 6 pressure)" 16 1e-12 && continue
+      for i in 1 2 3 4; do near "$name, increment $i: p" "$(cell $name 1 $i 6 pressure)" "$i*$i" 1e-12; done
+      same "$name: lifted" "$(cell $name 2 1 6 branch)" OPEN
+   done
+done
