@@ -11,6 +11,7 @@ module given_limits
    use analysis_state, only: analysis_type, subtract_joint_forces
    use equations, only: equation_system, forces_in_bodies
    use interface_operator, only: joint_movement
+   use joint_laws, only: friction_limit
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: attempt_type, evaluate, trial_type, verdict_type
@@ -29,6 +30,7 @@ module given_limits
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    real(wp), parameter :: most_of_work = 0.5_wp ! on a body that moves on: it falls if the load does less
+   real(wp), parameter :: slides = 0.2_wp      ! of the work of the limits of friction: where pressures do less, joints slide
    real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
@@ -113,8 +115,8 @@ contains
       attempt%n_growing = merge(attempt%n_growing + 1, 0, now%size > max(attempt%to_solve, analysis%tolerance))
       if (attempt%n_growing == diverging) then ! the body goes on the way that it went since the last limits
          associate (way => now%u - attempt%u_at_limits)
-            attempt%lacking = missing_force(attempt, way, sum(now%residual*way, mask=.not. analysis%held), &
-                                            sum(analysis%change*way, mask=.not. analysis%held))
+            attempt%lacking = missing_force(model, system, analysis, attempt, way, &
+                                            sum(now%residual*way, mask=.not. analysis%held))
          end associate
       end if
       attempt%u_at_limits = now%u
@@ -261,21 +263,42 @@ contains
          attempt%bearable = bearable
          whole = sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
          attempt%falls = whole < most_of_work*work
-         attempt%missing = missing_force(attempt, direction, work, whole)
+         attempt%missing = missing_force(model, system, analysis, attempt, direction, work)
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
 
    end subroutine minimise
 
-   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component.
-   pure real(wp) function missing_force(attempt, direction, work, whole)
-      type(attempt_type), intent(in) :: attempt
-      real(wp), intent(in)           :: direction(:, :) !! (dimension, retained) [length]
-      real(wp), intent(in)           :: work            !! of the unbalanced forces now [force*length]
-      real(wp), intent(in)           :: whole           !! of the load of the whole increment [force*length]
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component. What
+   !! the limits of joints that slide bear changes beyond the part of the ATTEMPT as it does in it, but is never less than nothing. Where
+   !! pressures do work too or limits diverge, as in a taper that comes out, they change by the movement and not by the load, which is
+   !! not borne any more.
+   pure real(wp) function missing_force(model, system, analysis, attempt, direction, work) result(missing)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(in)     :: attempt
+      real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
+      real(wp), intent(in)               :: work            !! of the unbalanced forces now [force*length]
+      real(wp) :: along(2), across, way(3) ! work of the limits of friction before the part and at its end, of the pressures at its end
+      integer  :: i
 
-      missing_force = (work + attempt%left*whole)/max(maxval(abs(direction)), tiny(1.0_wp))
+      along = 0.0_wp
+      across = 0.0_wp
+      do i = 1, size(system%interface)
+         if (attempt%sticks .or. .not. attempt%left > 0.0_wp) exit
+         associate (element => model%joints%element(i), law => model%joints%list(model%joints%element(i)%joint)%law)
+            way = joint_movement(system%interface(i), direction)
+            along = along + norm2(way(:2))*element%area*[friction_limit(law, analysis%states(i)%normal%pressure), &
+                                                         friction_limit(law, attempt%seen(i)%pressure)]
+            across = across + way(3)*element%area*attempt%seen(i)%pressure
+         end associate
+      end do
+      missing = work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held)
+      if (abs(across) < slides*along(2) .and. attempt%n_growing < diverging) missing = missing - &
+         max(attempt%left/attempt%part*(along(2) - along(1)), -along(2))
+      missing = max(0.0_wp, missing)/max(maxval(abs(direction)), tiny(1.0_wp))
    end function missing_force
 
    !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.

@@ -33,6 +33,7 @@ module increment_parts
    real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
    real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
+   real(wp), parameter :: alike = 0.25_wp         ! of the share that is borne of a larger part: limits grow as the load does
    real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
    integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
@@ -43,6 +44,7 @@ module increment_parts
       real(wp) :: limit = 0.0_wp              !! estimate of the last part that was not borne, as a share of the load; 0: none [-]
       real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
       real(wp) :: unborne = huge(1.0_wp)      !! the least share for which an attempt under given limits FAILS [-]
+      type(verdict_type) :: largest           !! verdict on the first part, the largest one, that given limits have not borne
       integer  :: n_cut = 0                   !! parts not borne since one was
       integer  :: only = 0                    !! way of the next attempt; 0: all, as far as needed; EVERY or OTHERS
    end type limit_search
@@ -72,6 +74,7 @@ contains
       attempt%lacking = 0.0_wp
       at_most = huge(1)
       begun = analysis%record%n_iterations
+      attempt%part = ends(2) - ends(1)
       if (present(guess)) then
          call try_part(model, system, analysis, 1.0_wp - ends(2), attempt, guess)
          if (.not. attempt%converged) call try_part(model, system, analysis, 1.0_wp - ends(2), attempt)
@@ -88,6 +91,7 @@ contains
          attempt%expected = no_bounds
          if (done > ends(1) .and. attempt%is_limited) & ! without a limit load below zero: given limits begin, nothing agrees
             attempt%expected = (ends(1) + [1.0_wp - agreement, 1.0_wp + agreement]*search%limit - done)/part
+         attempt%part = part
          attempt%only = search%only
          attempt%until = at_most
          if (search%n_moving > 0 .and. .not. done > ends(1)) attempt%until = at_most - least_to_it
@@ -117,7 +121,10 @@ contains
             end if
             estimate = done
             if (moves) estimate = done + attempt%bearable*part
-            if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
+            if (.not. done > ends(1) .and. moves .and. is_alike(attempt, search%largest)) then ! limits grow as the load does:
+               attempt%missing = search%largest%missing                                        ! the largest part tells best
+               attempt%leaves = search%largest%leaves
+            else if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
                attempt%leaves = search%leaves
                if (.not. (agrees .or. moves)) attempt%missing = missing_by_parts(search, done - ends(1), 1.0_wp - ends(1))
@@ -144,6 +151,7 @@ contains
       attempt%is_limited = .false.
       attempt%expected = no_bounds
       attempt%until = huge(1)
+      attempt%part = ends(2) - ends(1)
       whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 1.0_wp - ends(2), attempt, analysis%u)
@@ -200,6 +208,7 @@ contains
       if (attempt%n_moving > 0) then
          search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
          search%verdict_type = attempt%verdict_type
+         if (search%largest%n_moving == 0) search%largest = attempt%verdict_type
       end if
       search%n_cut = search%n_cut + 1
       if (search%n_cut > 1) part = 0.5_wp*part
@@ -235,6 +244,7 @@ contains
       if (share <= done .or. analysis%record%n_iterations > attempt%until - least_to_it) return
       allocate (last, source=attempt)
       last%only = straight
+      last%part = share - done
       call try_part(model, system, analysis, 1.0_wp - share, last)
       if (.not. last%converged) return
       analysis%record%n_parts = analysis%record%n_parts + 1
@@ -343,6 +353,14 @@ contains
 
       is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
    end function is_expected
+
+   !> Whether given limits bear about the same share of the part as they do of a larger one, from the same state.
+   pure logical function is_alike(attempt, larger)
+      type(attempt_type), intent(in) :: attempt
+      type(verdict_type), intent(in) :: larger
+
+      is_alike = larger%n_moving > 0 .and. abs(attempt%bearable - larger%bearable) <= alike*larger%bearable
+   end function is_alike
 
    !> Whether a joint has left its place, though given limits tell no share that they bear, in a part that ends above the limit load
    !! that a larger part has told.

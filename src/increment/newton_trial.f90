@@ -34,6 +34,7 @@ module newton_trial
    type, public, extends(verdict_type) :: attempt_type
       ! the goal
       character(:), allocatable :: where          !! stage and increment, for messages
+      real(wp) :: part = 1.0_wp                   !! fraction of the increment from the committed state to the goal [-]
       real(wp) :: left = 0.0_wp                   !! fraction of the increment left at the goal [-]
       real(wp), allocatable :: load(:, :)         !! (dimension, retained) at the goal [force]
       real(wp), allocatable :: move(:, :)         !! likewise, movement of held components still to do [length]

@@ -51,6 +51,22 @@ sed -i 's/^FORCEM,1,1000\.,0\.,-1\./FORCEM,1,1000.,0.1,-1./; s/^FORCEM,2,1\.,300
 rm -f "$work/limit_falling".*.csv "$work/limit_falling.out"
 run limit_falling 3
 near 'the pressure falls: missing' "$(missing limit_falling)" 100-20 2e-2
+
+# pressed and pushed from rest in one stage: limits and load grow together, and what is missing is T - MU N; pressed before, then pushed
+# and lifted off: at the end nothing is left that could hold, and T is missing
+together="METHOD = NEWTON;MODEL = PLANE;SUBCASE 1;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.;CJOINT,1,1,1,,10.,0.,-1.;PJOINT,1,1,2,,.2
+JNORM,1,1.-3,.5,3.+4;JSHEAR,2,100.;FORCE,1,1,,100.,0.,-1."
+for push in 20.5 50.; do
+   cards together <<< "$together;FORCE,1,1,,$push,1.;ENDDATA"
+   run together 3 && near "pressed and pushed by $push: missing" "$(missing together)" "$push - 0.2*100" 1e-9
+done
+cards lifted_off <<< "${together/BEGIN BULK/SUBCASE 2;LOAD = 2;BEGIN BULK};CELAS2,9,1000.,1,2;FORCE,2,1,,200.,0.,1.;FORCE,2,1,,60.,1.;ENDDATA"
+run lifted_off 3 && near 'pushed and lifted off: missing' "$(missing lifted_off)" 60 1e-9
+{ echo 'METHOD = NEWTON;SPC = 1;SUBCASE 1;LOAD = 10;BEGIN BULK;BLOCK3,1,1,2,2,2,0.,0.,0.;,40.,40.,20.,,,,1,1;,,,,,,21'
+  echo 'BLOCK3,2,1,2,2,2,0.,0.,20.;,40.,40.,40.,,,,101,101;,,,,,22,23;PSOLID,1,1;MAT1,1,1.2+5,,.25;PMARK,21;PMARK,22;PMARK,23'
+  echo 'JOINT,1,1,22,21;PJOINT,1,1,2,2,.2;JNORM,1,1.-3,.5,3.+3;JSHEAR,2,1000.;SPC1,1,123,1,4,7,10,13,16;+,19,22,25'
+  echo 'FORCEM,10,1600.,0.,0.,-1.,23;FORCEM,10,500.,1.,0.,0.,23;ENDDATA'; } | cards block_pushed
+run block_pushed 3 && near 'a block pressed and pushed: missing' "$(missing block_pushed)" '500 - 0.2*1600' 0.05
 near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
 
 # One half of a taper in its seat, with an interference of 8 micrometres, pulled by FORCE. While it sticks, the taper bears N (MU - SLOPE)/(1 +
