@@ -24,6 +24,7 @@ module joint_gaps
 
    public :: build_gaps
 
+   real(wp), parameter :: apart = 0.01_wp ! of the length of a face
    real(wp), parameter :: oblique(2) = off_square*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
 
    type, public :: gap_table_type
@@ -237,7 +238,23 @@ contains
             end select
          end associate
       end do
+      do j = 1, size(joints%list)
+         if (joints%list(j)%gap_kind == '') call warn_of_distance(deck, mesh%dimension, joints%list(j))
+      end do
    end subroutine build_gaps
+
+   !> Warn of faces that stand farther APART than their chords lie beside arcs, and have no JGAP: they are joined all the same.
+   subroutine warn_of_distance(deck, dimension, joint)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: dimension
+      type(joint_type), intent(in)   :: joint
+
+      associate (cover => joint%cover)
+         if (cover%farthest > sum(cover%sagitta) + apart*cover%spacing(1)**(1.0_wp/(dimension - 1))) &
+            call deck%errors%warn('joint '//integer_text(joint%id)//': its faces stand apart or overlap by up to '// &
+               real_text(cover%farthest)//', and are joined as if they touched; JGAP TRUE makes these distances its gaps')
+      end associate
+   end subroutine warn_of_distance
 
    !> PLANE and TABLE: the gap is a function of the position x, y of an element in the axes of the mean normal.
    subroutine gaps_by_place(deck, card, joint, mesh, joints)

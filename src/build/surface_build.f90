@@ -54,6 +54,7 @@ contains
          else
             if (sides(i)%corners > 2) words = words//': in a model of space plane elements mark surfaces; '// &
                'plane bodies cannot be mixed with solids; shells need MID2 on their PSHELL' ! the card may be meant as an element
+            if (sides(i)%corners == 2) words = words//', nor a PBAR or PBARL'
             call deck%field_error(sides(i)%line, 'PID', words)
          end if
          said = [said, sides(i)%property]

@@ -7,7 +7,7 @@ module normal_fit
    use kinds, only: wp
    use normal_curve, only: least_power
    use numbers, only: fit_line, solve_least_squares
-   use text_tools, only: real_text
+   use text_tools, only: one_of, real_text
    use tolerances, only: m_at_one, settled_curve
    implicit none
    private
@@ -133,7 +133,8 @@ contains
          call warnings%add(0, 'lambda does not fall with p in unloading: EU is left blank')
       else if (fit%loops%e_u < slope) then ! unloading is less steep than loading
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
-                           real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
+                           real_text(fit%p_high)//', '//real_text(slope)//': unloading would be less steep than loading'// &
+                           one_of(fit%loops%e_u < fit%m*slope, ', and the set negative', ''))
       end if
    end subroutine fit_normal
 

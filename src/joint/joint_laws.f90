@@ -318,7 +318,7 @@ contains
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: area, p_av
       real(wp), intent(in)        :: deflection(3) !! of the joint: along x, along y, lambda [length]
-      real(wp) :: k(3), moved, p
+      real(wp) :: k(3), moved, p, tau
 
       k = 0.0_wp
       if (deflection(3) < 0.0_wp) return
@@ -331,7 +331,8 @@ contains
          return
       end if
       k(:2) = area*cubic_secant(law%shear%load, abs(deflection(:2)), p)
-      if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
+      tau = norm2(k(:2)*deflection(:2))/area
+      if (law%has_friction .and. tau > friction_limit(law, p)) k(:2) = friction_limit(law, p)/tau*k(:2)
    end function back_stiffness
 
    !> Whether the Coulomb limit cuts the secants of BACK at this DEFLECTION and PRESSURE, as in back_stiffness: the element slides.
@@ -344,8 +345,8 @@ contains
          cuts = slides_as_whole(law%iwan, limit_share(law%iwan, pressure), norm2(deflection))
          return
       end if
-      if (law%has_friction) cuts = any(friction_limit(law, pressure) < &
-         (1.0_wp - settled_secant)*norm2(deflection)*cubic_secant(law%shear%load, abs(deflection), pressure))
+      if (law%has_friction) cuts = friction_limit(law, pressure) < &
+         (1.0_wp - settled_secant)*norm2(deflection*cubic_secant(law%shear%load, abs(deflection), pressure))
    end function limit_cuts
 
 end module joint_laws

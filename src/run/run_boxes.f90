@@ -227,6 +227,8 @@ contains
             loose = loose_words(model%mesh, model%joints, model%sets(i))
             if (loose /= '') loose = stage_name(plan%stages(plan%first_with(i)))//': '//loose
          end do
+         if (loose /= '' .and. all(deck%control%stages%supports%id == 0) .and. any(deck%bulk%support%set > 0)) &
+            loose = loose//'; no SPC in case control selects the supports of the deck'
       end if
       if (run%errors%any()) then
          run%ending = has_errors

@@ -347,8 +347,21 @@ contains
          call failure%raise(where//self%complaint)
       else if (fault > 0) then
          call failure%raise(where//'the structure is a mechanism: '//what_is_loose(model, self%node(fault), &
-            self%direction(fault))//' (not supported there, or every joint that held it is open)')
+            self%direction(fault))//' ('//what_let_go(model)//')')
       end if
    end subroutine report_fault
+
+   !> Why a component may have no stiffness.
+   pure function what_let_go(model) result(words)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: words
+      integer :: j
+
+      words = 'not supported there'
+      if (size(model%joints%element) == 0) return
+      words = words//', or every joint that held it is open'
+      if (any([(all(.not. model%joints%list(j)%law%shear(:model%mesh%dimension - 1)%given), j = 1, size(model%joints%list))])) &
+         words = words//' or has no law of shear'
+   end function what_let_go
 
 end module equation_solver

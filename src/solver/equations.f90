@@ -13,7 +13,7 @@ module equations
    use numbers, only: is_measure
    use solver_choice, only: choose_solver
    use structural_elements, only: bar_stiffness
-   use text_tools, only: real_text
+   use text_tools, only: one_of, real_text
    use unknowns, only: unknown_name
    implicit none
    private
@@ -191,7 +191,8 @@ contains
       if (i > 0) then
          i = system%equations(i)
          call failure%raise(system%formed_in//'the displacement of '//unknown_name(model, system%node(i), system%direction(i))// &
-                            ' is '//real_text(x(i))//', too large; are loads and stiffnesses in consistent units?')
+                            ' is '//real_text(x(i))//', too large; are loads and stiffnesses in consistent units'// &
+                            one_of(any(model%joints%list%law%has_friction), ', and does friction hold them?', '?'))
          return
       end if
       call system%put(x, u)
