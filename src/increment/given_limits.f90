@@ -65,6 +65,14 @@ contains
       attempt%seen = analysis%states%normal
       where (attempt%seen%branch == branch_load .and. attempt%seen%pressure <= pressure_floor*attempt%seen%p_av) &
          attempt%seen%pressure = attempt%seen%p_av
+      if (attempt%holds_all) then
+         where (attempt%seen%branch == branch_open)
+            attempt%seen%branch = branch_load
+            attempt%seen%pressure = attempt%seen%p_av
+            attempt%seen%lambda_b = attempt%seen%lambda_before
+            attempt%seen%lambda = attempt%seen%lambda_before + 1.0_wp ! all of their movement counts
+         end where
+      end if
       attempt%sticks = .true.
       attempt%sees_own = .false.
       attempt%to_solve = 0.0_wp

@@ -10,6 +10,7 @@ module increment_parts
    use model_data, only: model_type
    use newton_iterations, only: iterate
    use newton_trial, only: attempt_type, most_iterations, no_bounds, verdict_type
+   use normal_stiffness, only: branch_open
    use tolerances, only: least_share
    implicit none
    private
@@ -20,7 +21,7 @@ module increment_parts
    integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
-   integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4 ! ways of an attempt
+   integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4, holding = 5 ! ways of an attempt
    integer, parameter  :: every = -1              ! of these ways, also after one by which a body moves on
    integer, parameter  :: others = -2             ! all ways but STICKING, by which the part has just not been borne
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
@@ -255,7 +256,8 @@ contains
    !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less
    !! than its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits
    !! of friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a
-   !! structure in which nothing slips. This last way is the first one where given limits have not borne a larger part, as it shows
+   !! structure in which nothing slips; if a body moves on in it, elements that are open at the start hold it too, for they may close.
+   !! This last way is the first one where given limits have not borne a larger part, as it shows
    !! this in fewer iterations, and the only one if a body then moves on above the limit load, unless EVERY way is asked for, or the
    !! OTHERS are: the verdict before stands where given limits say nothing more.
    subroutine try_part(model, system, analysis, left, attempt, from)
@@ -269,7 +271,8 @@ contains
       type(verdict_type) :: before
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
-      integer  :: k, ways(4), way
+      integer  :: k, ways(5), way
+      logical  :: hangs ! the last way was STICKING, and what is open at the start could hold the body that moves on
       logical  :: stays ! the last way was an extrapolation that NEVER_FALLS
 
       attempt%left = left
@@ -288,15 +291,20 @@ contains
       if (.not. allocated(attempt%loose)) allocate (attempt%loose(size(model%joints%list)), source=.false.)
       attempt%trouble = none
       if (is_given_up(analysis)) return
-      ways = [extrapolated, straight, from_best, sticking]
-      if (follows_refused(attempt)) ways = [sticking, extrapolated, straight, from_best]
+      ways = [extrapolated, straight, from_best, sticking, holding]
+      if (follows_refused(attempt)) ways = [sticking, holding, extrapolated, straight, from_best]
+      hangs = .false.
       do k = 1, size(ways)
          way = ways(k)
          attempt%most = min(most_iterations, attempt%until - analysis%record%n_iterations)
          if (attempt%most < 1) exit
          if (way == extrapolated .and. .not. attempt%growth > 0.0_wp) cycle
          if (way == straight .and. stays) cycle
-         if (attempt%only > 0 .and. way /= attempt%only .or. attempt%only == others .and. way == sticking) cycle
+         if (way == holding) then
+            if (.not. hangs) cycle
+         else
+            if (attempt%only > 0 .and. way /= attempt%only .or. attempt%only == others .and. way == sticking) cycle
+         end if
          if (way == from_best .and. .not. attempt%least < promising*first) cycle
          if (way /= extrapolated) attempt%growth = 0.0_wp
          attempt%moves = analysis%moves
@@ -304,6 +312,7 @@ contains
                               system%number(:, system%retained) == 0)
          attempt%with_limits = way >= from_best
          attempt%from_best = way == from_best
+         attempt%holds_all = way == holding
          if (allocated(attempt%seen)) deallocate (attempt%seen)
          attempt%iteration = 0
          attempt%gain = 1.0_wp
@@ -322,8 +331,11 @@ contains
          attempt%fails = attempt%fails .or. (attempt%with_limits .and. attempt%iteration < attempt%most)
          if (way < from_best) first = attempt%at_start
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
+         hangs = way == sticking .and. attempt%sticks .and. attempt%n_moving > 0 .and. &
+                 any(analysis%states%normal%branch == branch_open)
+         if (hangs) cycle
          if (is_expected(attempt) .or. is_clear(attempt)) exit
-         if (way == sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. ends_above_limit(attempt)) then
+         if (way >= sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. ends_above_limit(attempt)) then
             attempt%tried_all = .false.
             exit
          end if

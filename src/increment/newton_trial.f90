@@ -76,6 +76,7 @@ module newton_trial
       integer  :: n_returns = 0                   !! how often they did not
       logical  :: sees_own = .false.              !! SEEN is that of the trial
       logical  :: sticks = .false.                !! nothing slips
+      logical  :: holds_all = .false.             !! ... and elements that are open at the start stick too
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
       integer  :: n_growing = 0                   !! the last ones that were farther off than those before

@@ -250,3 +250,20 @@ for d in 2 3; do
    }
    shrink "touching$d" $d 0.0 && ask "touching circles in $d dimensions" touching$d rows 'increment = max(increment)' all "abs(pressure) < 0.001*$lame"
 done
+
+# A plate that interference holds at two points, the other gaps being open, pressed and pushed at once: the elements that close have to
+# hold it, and nothing does before
+for solver in SKYLINE TREE; do
+   { echo "METHOD = NEWTON;SOLVER = $solver;SPC = 1;SUBCASE 1;LOAD = 10;INCR = 51;BEGIN BULK"
+     echo 'BLOCK3,1,1,2,2,2,6.1,-3.07,-3.27;,36.5,20.,3.95,,,,101,101;,,,,,11,12;GRID,28,,8.49,-5.48,5.75;GRID,29,,8.49,17.6,5.75'
+     echo 'GRID,30,,25.1,-5.48,5.75;GRID,31,,25.1,17.6,5.75;GRID,32,,38.4,-5.48,5.75;GRID,33,,38.4,17.6,5.75'
+     for mark in 2,28,30,31,29,30,32,33,31 21,28,29,31,30,30,31,33,32 22,28,30,31,29,30,32,33,31; do
+        IFS=, read -r pid a b c d e f g h <<< "$mark"
+        echo "CQUAD4,1$pid,$pid,$a,$b,$c,$d;CQUAD4,2$pid,$pid,$e,$f,$g,$h"
+     done
+     echo 'PSOLID,1,1;MAT1,1,1.38+5,,.27;PMARK,11;PMARK,12;PMARK,21;PMARK,22;PSHELL,2,2,3.6,2,,2;MAT1,2,8.28+4,,.33'
+     echo 'JOINT,2,1,12,21;PJOINT,1,1,1,1,1.24,,.168;JSHEAR,1,111.;JNORM,1,.00353,.798,2540.;JGAP,2,TABLE'
+     echo '+,7.07,21.9,3.95,-.00193,43.9,21.4,3.95,.000312;+,2.51,-7.68,3.95,-.00216,44.5,-7.66,3.95,.0029;+,18.,-.562,3.95,.00332'
+     echo 'SPCM,1,123,11;FORCEM,10,1.,-37.9,114.,-1200.,22;PLOADM,10,.851,22;JINCR,51,,LIST,1.;ENDDATA'; } | cards two_points_$solver
+   run two_points_$solver && near "a plate on two points, $solver: its push" "$(total two_points_$solver SUPPORTS 2)" -114 1e-6
+done
