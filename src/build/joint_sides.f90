@@ -339,8 +339,10 @@ contains
       frame%exists = .true.
       if (mesh%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
       if (mesh%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
-      if (frame%extent <= no_inertia*norm2(frame%centroid)) frame%exists(4:) = .false. ! all elements at one place, to rounding
       frame%exists(4:) = frame%exists(4:) .and. inertia > no_inertia*maxval(inertia)
+      if (frame%extent > no_inertia*norm2(frame%centroid)) return
+      frame%extent = 0.0_wp ! all elements at one place, to rounding
+      frame%exists(4:) = .false.
    end function find_frame
 
 end module joint_sides

@@ -257,9 +257,9 @@ contains
    !! than its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits
    !! of friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a
    !! structure in which nothing slips; if a body moves on in it, elements that are open at the start hold it too, for they may close.
-   !! This last way is the first one where given limits have not borne a larger part, as it shows
-   !! this in fewer iterations, and the only one if a body then moves on above the limit load, unless EVERY way is asked for, or the
-   !! OTHERS are: the verdict before stands where given limits say nothing more.
+   !! This last way is the first one where given limits have not borne a larger part, as it shows this in fewer iterations, and the
+   !! only one if a body then moves on above the limit load, unless EVERY way is asked for, or the OTHERS are: the verdict before
+   !! stands where given limits say nothing more.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system

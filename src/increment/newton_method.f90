@@ -271,8 +271,8 @@ contains
                     one_of(slips, ' slips or is open at all its nodes', ' moves without finding hold')// &
                     ', from node '//integer_text(joint_node_id(model, joint%first, 1))// &
                     ' on, and does not hold the load in the direction of its movement'
-            missing = merge(attempt%missing, attempt%lacking, attempt%missing > 0.0_wp)
-            if (missing > 0.0_wp) words = words//': '//real_text(missing)//' of force are missing'
+            missing = merge(attempt%missing, attempt%lacking, attempt%missing > analysis%tolerance)
+            if (missing > analysis%tolerance) words = words//': '//real_text(missing)//' of force are missing'
             if (.not. slips .and. all(attempt%worst > 0)) &
                words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
             if (attempt%is_unsure) words = words//'; the limit load is not confirmed: more increments show where it is'

@@ -325,3 +325,27 @@ run slides_on && {
    same 'sliding on: one iteration an increment' \
       "$(awk '/CONVERGENCE HISTORY/ { on = 1; next } /RESULTANTS/ { on = 0 } on && $1 >= 7 && $1 <= 17 && $3 > 1' "$work/slides_on.out")" ''
 }
+
+# BACK with two shear laws, 100 and 1000: below the limit of 30 of the resultant nothing slips; beyond it, beside springs of 50, both
+# stresses are cut in proportion
+for push in 9 40; do
+   cards back_cut <<< "METHOD = BACK;MODEL = SPACE;SUBCASE 1;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.,0.;CJOINT,1,1,1,,1.,0.,0.,1.;PJOINT,1,1,1,2,.3
+JNORM,1,8.-3,.5,9500.;JSHEAR,1,100.;JSHEAR,2,1000.;CELAS2,8,50.,1,1;CELAS2,9,50.,1,2;FORCE,1,1,,1.,$push.,$push.,-100.;ENDDATA"
+   run back_cut || continue
+   set -- $("$query" "$work/back_cut.joint.csv" rows 'stage = 1' print 'abs(tau_x)') $("$query" "$work/back_cut.joint.csv" rows 'stage = 1' print 'abs(tau_y)') \
+      $("$query" "$work/back_cut.joint.csv" rows 'stage = 1' print 'abs(delta_x)') $("$query" "$work/back_cut.joint.csv" rows 'stage = 1' print 'abs(delta_y)')
+   if [ $push = 9 ]; then
+      near 'BACK below the limit of the resultant: delta x' $3 9/150 1e-9
+      near 'BACK below the limit of the resultant: delta y' $4 9/1050 1e-9
+      same 'BACK below the limit of the resultant: slip' "$(cell back_cut 1 1 1 slip)" 0
+   else
+      near 'BACK beyond the limit: resultant' "sqrt($1*$1 + $2*$2)" 30 1e-4
+      near 'BACK beyond the limit: direction' "$1*1000*$4" "$2*100*$3" 1e-4
+      same 'BACK beyond the limit: slip' "$(cell back_cut 1 1 1 slip)" 1
+   fi
+done
+
+# MU without a law of shear has no effect, and a warning says so
+cards without_shear <<< "METHOD = NEWTON;MODEL = PLANE;SUBCASE 1;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.,0.,,1;CJOINT,1,1,1,,1.,0.,1.;PJOINT,1,1,,,.3
+JNORM,1,8.-3,.5,9500.;FORCE,1,1,,1.,0.,-100.;ENDDATA"
+run without_shear && says 'MU without a law of shear' "$work/without_shear.log" 'joint 1: MU has no effect, for the joint has no law of shear'

@@ -267,3 +267,22 @@ for solver in SKYLINE TREE; do
      echo 'SPCM,1,123,11;FORCEM,10,1.,-37.9,114.,-1200.,22;PLOADM,10,.851,22;JINCR,51,,LIST,1.;ENDDATA'; } | cards two_points_$solver
    run two_points_$solver && near "a plate on two points, $solver: its push" "$(total two_points_$solver SUPPORTS 2)" -114 1e-6
 done
+
+# Four points of a gap table nearly on a circle, the fourth 0.1 % outside: the Delaunay triangles are those of the other diagonal, also in a
+# mirror. At the node 0.01*0.05
+for side in '' -; do
+   cards nearly_square <<< "METHOD = NEWTON;SUBCASE 1;LOAD = 1;BEGIN BULK;GRID,1,,${side}0.183012701892,0.683012701892,0.,,12
+CJOINT,1,1,1,,100.,0.,0.,1.;PJOINT,1,1;JNORM,1,8.-3,.5,9500.;JGAP,1,TABLE
+$(awk -v s="${side}1" 'BEGIN { printf "+,%.9f,-5.,0.,0.,%.9f,5.,0.,0.", -8.660254038*s, 8.660254038*s
+                               printf ";+,%.9f,8.660254038,0.,.01,%.9f,-8.668914292,0.,.01", -5*s, 5.005*s }')
+FORCE,1,1,,1.,0.,0.,-100.;ENDDATA"
+   run nearly_square && near "nearly a square${side:+, mirrored}: gap" "$(cell nearly_square 1 1 1 gap)" 5e-4 1e-6
+done
+
+# Two blocks whose faces match and stand 1 apart: they are joined, and a warning says so, but not with JGAP
+for gap in '' 'JGAP,1,TRUE;'; do
+   cards apart <<< "METHOD = NEWTON;SPC = 1;SUBCASE 1;LOAD = 10;BEGIN BULK;BLOCK3,1,1,1,1,1,0.,0.,0.;,20.,20.,20.,,,,1,1;,,,,,20,21
+BLOCK3,2,1,1,1,1,0.,0.,21.;,20.,20.,40.,,,,101,101;,,,,,22,23;PSOLID,1,1;MAT1,1,1.2+5,,.25;PMARK,20;PMARK,21;PMARK,22;PMARK,23
+JOINT,1,1,22,21;PJOINT,1,1,2;JNORM,1,1.-3,.5,3.+4;JSHEAR,2,100.;${gap}SPCM,1,123,20;SPCM,1,12,23;FORCEM,10,400.,0.,0.,-1.,23;ENDDATA"
+   run apart && same "faces apart${gap:+, with JGAP}: warnings" "$(grep -c 'faces stand apart or overlap by up to 1, and are joined' "$work/apart.log")" $((${#gap} == 0))
+done
