@@ -302,7 +302,7 @@ contains
          case (kind_tetra4)
             expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
          case (kind_hexa8)
-            expected = 'expected in G1 and G3 two opposite corners of a face'
+            expected = 'expected in G1 and G34 two opposite corners of a face'
          case (kind_pyram5)
             expected = 'expected two opposite corners of the base, or the two corners of a triangular face at the base'
          case (kind_penta6)

@@ -12,7 +12,7 @@ module iwan_fit
    use iwan_law, only: greatest_phi, iwan_type, make_slices
    use kinds, only: wp
    use numbers, only: solve_least_squares
-   use text_tools, only: plural, real_text
+   use text_tools, only: integer_text, plural, real_text
    use tolerances, only: iwan_difference, not_fixed, settled_iwan
    implicit none
    private
@@ -72,7 +72,7 @@ contains
                                    greatest_phi(fit%law)*data%value(column_p, :data%n)/p_ref)
          if (all(fixed(:free)) .and. (free == 3 .or. exp(q(4)) > not_fixed)) exit
          if (free == 4 .and. exp(q(4)) > not_fixed) call warnings%add(0, 'the data do not fix BETA, it is set to 0: expected '// &
-            'amplitudes beyond phi_max, where the joint slides as a whole')
+            integer_text(beyond)//' amplitudes beyond phi_max, where the joint slides as a whole')
       end do
       if (.not. all(fixed(:min(free, 4)))) call errors%add(0, 'the data do not fix '//trim(names(findloc(fixed, .false., 1)))// &
          ' of a JIWAN card, CHI = '//real_text(fit%law%chi)//': expected tests from small amplitudes '// &

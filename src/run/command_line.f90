@@ -46,7 +46,7 @@ module command_line
       '                 runs of one deck go on side by side on the cores'//nl// &
       '   --watch N,N   nodes whose displacement and stiffness are added to the answer of every stage; N-M: M against N'//nl// &
       '   --law F       file with the PJOINT, JNORM and JSHEAR of contacts that BCTSET cards of NX define'//nl// &
-      '   --summary F   write a table of all runs to the file F, one row for each run; F may be new or an earlier table'//nl// &
+      '   --summary F   write a table of all runs to the file F, one row for each run, in place of an earlier table'//nl// &
       '   --resume      continue each deck from its restart file, beam.restart: the results are those of an'//nl// &
       '                 uninterrupted run. A deck without a restart file starts from the beginning.'//nl// &
       '   --date        print date and time in the heading of the listing'//nl// &
