@@ -58,9 +58,9 @@ contains
             if (k == 0 .or. pjoint%shear_laws(direction) == 0) cycle
             law%shear(direction) = deck%bulk%jshear(k)%law
          end do
-         if (pjoint%mu > 0.0_wp .and. pjoint%iwan_law == 0 .and. .not. any(law%shear%given)) call deck%errors%warn('joint '// &
-            integer_text(joint%id)//': MU has no effect, for the joint has no law of shear; name a JSHEAR on PJOINT '// &
-            integer_text(pjoint%id))
+         if (pjoint%mu > 0.0_wp .and. pjoint%iwan_law == 0 .and. .not. any(law%shear(:dimension - 1)%given)) &
+            call deck%errors%warn('joint '//integer_text(joint%id)//': MU has no effect, because the joint has no law of '// &
+                                  'shear; name a JSHEAR on PJOINT '//integer_text(pjoint%id))
          k = tables%jiwan%find(pjoint%iwan_law)
          if (k == 0 .or. pjoint%iwan_law == 0) return
          law%iwan = deck%bulk%jiwan(k)%law
@@ -255,7 +255,7 @@ contains
          if (surface(2) > 0) shared = [(any(mesh%surfaces(surface(k))%other(:mesh%surfaces(surface(k))%n) > 0), k = 1, 2)]
          if (shared(2)) then
             call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2))// &
-                                  ': as SIDE1, without SIDE2, the program splits it')
+                                  ': name it as SIDE1 and leave SIDE2 blank, and the program splits it')
          else if (shared(1)) then
             call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
                                   ': leave SIDE2 blank, and the program splits it')

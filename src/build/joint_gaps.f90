@@ -24,7 +24,7 @@ module joint_gaps
 
    public :: build_gaps
 
-   real(wp), parameter :: apart = 0.01_wp ! of the length of a face
+   real(wp), parameter :: apart = 0.01_wp ! of the size of a face: a larger distance gives a warning
    real(wp), parameter :: oblique(2) = off_square*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
 
    type, public :: gap_table_type
@@ -243,7 +243,8 @@ contains
       end do
    end subroutine build_gaps
 
-   !> Warn of faces that stand farther APART than their chords lie beside arcs, and have no JGAP: they are joined all the same.
+   !> Warn of a JOINT without JGAP whose projected faces are farther from each other than the sagittas of both and APART of a face
+   !! together.
    subroutine warn_of_distance(deck, dimension, joint)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: dimension

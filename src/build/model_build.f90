@@ -98,7 +98,8 @@ contains
                call find_start(checked, plan, mesh, history, joints, sets)
                call errors%warn(repeated_words(mesh))
                call errors%warn(crack_words(mesh, joints, sets(1)))
-               if (any(is_held(sets))) call errors%warn('all components of all nodes are supported: nothing moves but by SPCD')
+               if (all(is_held(sets))) &
+                  call errors%warn('all components of all nodes are supported; nodes move only by D of SPC and by SPCD')
                call watch_units(deck, joints, errors)
                call take_parts(joints, sets, history, model)
                if (deck%bulk%parameters%holds_idle) call hold_idle_of_sets(waves, model, errors)

@@ -130,7 +130,7 @@ contains
       associate (bulk => self%bulk)
          call self%report_repeated('property', [bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%pmark%id], &
                               [bulk%pshell%line, bulk%paxis%line, bulk%psolid%line, bulk%prod%line, bulk%pmark%line])
-         call self%report_repeated('property of beams', bulk%beam_property%id, bulk%beam_property%line)
+         call self%report_repeated('PBAR or PBARL', bulk%beam_property%id, bulk%beam_property%line)
          call self%report_repeated('MAT1', bulk%mat1%id, bulk%mat1%line)
          call self%report_repeated('LOAD', bulk%load%set, bulk%load%line)
          associate (plane => bulk%block%dimension == 2)

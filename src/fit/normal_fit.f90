@@ -134,7 +134,7 @@ contains
       else if (fit%loops%e_u < slope) then ! unloading is less steep than loading
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
                            real_text(fit%p_high)//', '//real_text(slope)//': unloading would be less steep than loading'// &
-                           one_of(fit%loops%e_u < fit%m*slope, ', and the set negative', ''))
+                           one_of(fit%loops%e_u < fit%m*slope, ', and the set would be negative', ''))
       end if
    end subroutine fit_normal
 

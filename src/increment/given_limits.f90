@@ -30,7 +30,7 @@ module given_limits
    real(wp), parameter :: enough = 0.8_wp      ! of that work: what a full step may leave
    integer, parameter  :: most_flat = 4        ! such trials, one behind the other
    real(wp), parameter :: most_of_work = 0.5_wp ! on a body that moves on: it falls if the load does less
-   real(wp), parameter :: slides = 0.2_wp      ! of the work of the limits of friction: where pressures do less, joints slide
+   real(wp), parameter :: slides = 0.2_wp      ! of the work of the limits of friction: joints slide where pressures do less work
    real(wp), parameter :: hardly_falls = 0.97_wp ! of the work is left from NEAR_BY to FARTHER_OFF: a body moves on
    integer, parameter  :: most_moving = 2      ! such directions; one where given limits have not borne a part of the increment before
    integer, parameter  :: most_trials = 20     ! of a line search
@@ -42,7 +42,8 @@ module given_limits
 contains
 
    !> The normal states that the laws along x and y see first: those of the first trial NOW where it is the best one of straight laws,
-   !! otherwise those of the start, under which nothing slips. An element that has never been pressed then has the pressure of Eq. (9).
+   !! otherwise those of the start, under which nothing slips. An element that has never been pressed then has the pressure of Eq. (9);
+   !! with HOLDS_ALL an element that is open at the start holds in shear as if it were closed, with this pressure.
    subroutine give_first_limits(model, system, analysis, attempt, now)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -278,10 +279,10 @@ contains
 
    end subroutine minimise
 
-   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component. What
-   !! the limits of joints that slide bear changes beyond the part of the ATTEMPT as it does in it, but is never less than nothing. Where
-   !! pressures do work too or limits diverge, as in a taper that comes out, they change by the movement and not by the load, which is
-   !! not borne any more.
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component.
+   !! From the end of the part to the end of the increment the limits of sliding joints change at the rate that they have in the
+   !! part; they do not fall below zero. They are left as they are where pressures do work too, or where limits diverge, as in a taper
+   !! that comes out: there the limits follow the movement.
    pure real(wp) function missing_force(model, system, analysis, attempt, direction, work) result(missing)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -289,23 +290,24 @@ contains
       type(attempt_type), intent(in)     :: attempt
       real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
       real(wp), intent(in)               :: work            !! of the unbalanced forces now [force*length]
-      real(wp) :: along(2), across, way(3) ! work of the limits of friction before the part and at its end, of the pressures at its end
+      real(wp) :: along(2) ! work of the limits of friction before the part and at its end [force*length]
+      real(wp) :: across   ! work of the pressures at its end [force*length]
+      real(wp) :: way(3)   ! movement at an element [length]
       integer  :: i
 
       along = 0.0_wp
       across = 0.0_wp
       do i = 1, size(system%interface)
-         if (attempt%sticks .or. .not. attempt%left > 0.0_wp) exit
+         if (attempt%sticks .or. .not. attempt%left > 0.0_wp .or. attempt%n_growing >= diverging) exit
          associate (element => model%joints%element(i), law => model%joints%list(model%joints%element(i)%joint)%law)
             way = joint_movement(system%interface(i), direction)
-            along = along + norm2(way(:2))*element%area*[friction_limit(law, analysis%states(i)%normal%pressure), &
-                                                         friction_limit(law, attempt%seen(i)%pressure)]
+            along = along + norm2(merge(way(:2), 0.0_wp, law%shear%given))*element%area* &
+                            [friction_limit(law, analysis%states(i)%normal%pressure), friction_limit(law, attempt%seen(i)%pressure)]
             across = across + way(3)*element%area*attempt%seen(i)%pressure
          end associate
       end do
       missing = work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held)
-      if (abs(across) < slides*along(2) .and. attempt%n_growing < diverging) missing = missing - &
-         max(attempt%left/attempt%part*(along(2) - along(1)), -along(2))
+      if (abs(across) < slides*along(2)) missing = missing - max(attempt%left/attempt%part*(along(2) - along(1)), -along(2))
       missing = max(0.0_wp, missing)/max(maxval(abs(direction)), tiny(1.0_wp))
    end function missing_force
 

@@ -122,8 +122,9 @@ contains
             end if
             estimate = done
             if (moves) estimate = done + attempt%bearable*part
-            if (.not. done > ends(1) .and. moves .and. is_alike(attempt, search%largest)) then ! limits grow as the load does:
-               attempt%missing = search%largest%missing                                        ! the largest part tells best
+            ! where the limits grow with the load, the largest part gives the best missing force
+            if (.not. done > ends(1) .and. moves .and. is_alike(attempt, search%largest)) then
+               attempt%missing = search%largest%missing
                attempt%leaves = search%largest%leaves
             else if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
@@ -256,10 +257,10 @@ contains
    !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less
    !! than its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits
    !! of friction: from the best trial of the straight laws if this has left less than their first, and if that fails too, from a
-   !! structure in which nothing slips; if a body moves on in it, elements that are open at the start hold it too, for they may close.
-   !! This last way is the first one where given limits have not borne a larger part, as it shows this in fewer iterations, and the
-   !! only one if a body then moves on above the limit load, unless EVERY way is asked for, or the OTHERS are: the verdict before
-   !! stands where given limits say nothing more.
+   !! structure in which nothing slips (STICKING). If a body moves on in it, elements that are open at the start hold this body too
+   !! (HOLDING), because they may close. STICKING is the first way where given limits have not borne a larger part, as it shows this
+   !! in fewer iterations, and the only one if a body then moves on above the limit load, unless EVERY way is asked for, or the
+   !! OTHERS are: the verdict before stands where given limits say nothing more.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -268,7 +269,7 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) initial displacements, supports moved [length]
       type(failure_type) :: none
-      type(verdict_type) :: before
+      type(verdict_type) :: before, hung ! the verdict of STICKING
       real(wp), allocatable :: u(:, :)
       real(wp) :: first
       integer  :: k, ways(5), way
@@ -333,7 +334,11 @@ contains
          stays = way == extrapolated .and. never_falls(attempt%sizes(:attempt%iteration))
          hangs = way == sticking .and. attempt%sticks .and. attempt%n_moving > 0 .and. &
                  any(analysis%states%normal%branch == branch_open)
-         if (hangs) cycle
+         if (hangs) then
+            hung = attempt%verdict_type
+            cycle
+         end if
+         if (way == holding .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = hung
          if (is_expected(attempt) .or. is_clear(attempt)) exit
          if (way >= sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. ends_above_limit(attempt)) then
             attempt%tried_all = .false.
@@ -371,7 +376,8 @@ contains
       type(attempt_type), intent(in) :: attempt
       type(verdict_type), intent(in) :: larger
 
-      is_alike = larger%n_moving > 0 .and. abs(attempt%bearable - larger%bearable) <= alike*larger%bearable
+      is_alike = larger%n_moving > 0 .and. abs(attempt%bearable - larger%bearable) <= &
+                 max(alike*larger%bearable, least_share)
    end function is_alike
 
    !> Whether a joint has left its place, though given limits tell no share that they bear, in a part that ends above the limit load

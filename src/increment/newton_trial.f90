@@ -9,7 +9,8 @@ module newton_trial
    use joint_work, only: work_along
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: branch_load, branch_reload, branch_unload, normal_state
+   use normal_stiffness, only: branch_load, branch_open, branch_reload, branch_unload, normal_state
+   use shear_stiffness, only: shear, shear_state
    use tolerances, only: rounding_of_forces, tight_direction
    implicit none
    private
@@ -76,7 +77,7 @@ module newton_trial
       integer  :: n_returns = 0                   !! how often they did not
       logical  :: sees_own = .false.              !! SEEN is that of the trial
       logical  :: sticks = .false.                !! nothing slips
-      logical  :: holds_all = .false.             !! ... and elements that are open at the start stick too
+      logical  :: holds_all = .false.             !! nothing slips, and elements that are open at the start hold
       real(wp) :: to_solve = 0.0_wp               !! residual of the first trial under the present limits [force]
       integer  :: n_limits = 0                    !! limits given so far
       integer  :: n_growing = 0                   !! the last ones that were farther off than those before
@@ -271,6 +272,7 @@ contains
       class(equation_system), intent(in) :: system
       type(trial_type), intent(in)       :: trial
       type(analysis_type), intent(inout) :: analysis
+      type(shear_state) :: here(2)
       integer :: i, was
 
       analysis%u = trial%u
@@ -286,6 +288,10 @@ contains
                 state%normal%lambda_a - state%normal%lambda <= rounding_of_forces &
                 *maxval(abs(analysis%u(:, system%interface(i)%node)))) state%normal%branch = branch_load
             state%shear%k_s = [trial%tangent(1, 1, i), trial%tangent(2, 2, i)]
+            if (.not. (state%slips .or. state%normal%branch == branch_open .or. allocated(state%iwan))) then
+               here = state%shear ! under the pressure at the end, and not along the increment
+               call shear(model%joints%list(element%joint)%law%shear, element%area, state%normal%pressure, here, state%shear%k_s)
+            end if
             call rest_when_open(state, movement)
             analysis%record%kind(i) = kind_on_branch(state%normal%branch)
          end associate

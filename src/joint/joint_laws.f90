@@ -312,8 +312,8 @@ contains
       if (law%iwan%p_ref > 0.0_wp .and. p(1) > 0.0_wp) tangent(:2, 3) = tangent(:2, 3) + area*p(2)/law%iwan%p_ref*by_share
    end subroutine follow_iwan
 
-   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
-   !! the Coulomb limit, times the area [force/length]; none where the element is open.
+   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p, both cut
+   !! in proportion where their resultant exceeds the Coulomb limit, times the area [force/length]; none where the element is open.
    pure function back_stiffness(law, area, p_av, deflection) result(k)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: area, p_av

@@ -109,7 +109,7 @@ contains
       type(joint_type), intent(in)    :: joint
       type(cut_type), intent(in)      :: cut !! by planes of symmetry, in the axes of the joint
       real(wp) :: q(6), a, area, arm(3), d(3), determinant, inertia(3, 3), j, mean(3), minors(3, 3), moment(3), place(3)
-      real(wp) :: unit_area, unit_length
+      real(wp) :: least, unit_area, unit_length
       integer  :: i
 
       q = 0.0_wp
@@ -139,11 +139,13 @@ contains
          moment = moment + a*cross(arm, d)
       end do
       j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
+      least = huge(1.0_wp) ! all elements are at one place
+      if (joint%frame%extent > 0.0_wp) least = no_inertia*area*(joint%frame%extent/unit_length)**2
       if (cut%n > 0) then
          mean = free_part(cut, mean)
          j = dot_product(cut%direction(:, 1), matmul(inertia, cut%direction(:, 1)))
-         if (j > no_inertia*area*(joint%frame%extent/unit_length)**2) q(4:) = axis_part(cut, moment)/j
-      else if (j > no_inertia*area*(joint%frame%extent/unit_length)**2) then  ! else all elements are at one point
+         if (j > least) q(4:) = axis_part(cut, moment)/j
+      else if (j > least) then  ! else all elements are at one point
          minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
          minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
          minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))

@@ -228,7 +228,7 @@ contains
             if (loose /= '') loose = stage_name(plan%stages(plan%first_with(i)))//': '//loose
          end do
          if (loose /= '' .and. all(deck%control%stages%supports%id == 0) .and. any(deck%bulk%support%set > 0)) &
-            loose = loose//'; no SPC in case control selects the supports of the deck'
+            loose = loose//'; case control has no SPC, so that no support of the deck acts'
       end if
       if (run%errors%any()) then
          run%ending = has_errors

@@ -359,9 +359,9 @@ contains
 
       words = 'not supported there'
       if (size(model%joints%element) == 0) return
-      words = words//', or every joint that held it is open'
-      if (any([(all(.not. model%joints%list(j)%law%shear(:model%mesh%dimension - 1)%given), j = 1, size(model%joints%list))])) &
-         words = words//' or has no law of shear'
+      words = words//', or every joint there is open'
+      if (any([(any(.not. model%joints%list(j)%law%shear(:model%mesh%dimension - 1)%given), j = 1, size(model%joints%list))])) &
+         words = words//' or has no law of shear in this direction'
    end function what_let_go
 
 end module equation_solver

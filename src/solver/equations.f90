@@ -192,7 +192,7 @@ contains
          i = system%equations(i)
          call failure%raise(system%formed_in//'the displacement of '//unknown_name(model, system%node(i), system%direction(i))// &
                             ' is '//real_text(x(i))//', too large; are loads and stiffnesses in consistent units'// &
-                            one_of(any(model%joints%list%law%has_friction), ', and does friction hold them?', '?'))
+                            one_of(any(model%joints%list%law%has_friction), ', and does friction alone hold a body?', '?'))
          return
       end if
       call system%put(x, u)

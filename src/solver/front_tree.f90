@@ -217,7 +217,6 @@ contains
    pure integer function front_of(tree, equations) result(f)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: equations(:)
-
       integer :: first
 
       f = 0

@@ -348,4 +348,4 @@ done
 # MU without a law of shear has no effect, and a warning says so
 cards without_shear <<< "METHOD = NEWTON;MODEL = PLANE;SUBCASE 1;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.,0.,,1;CJOINT,1,1,1,,1.,0.,1.;PJOINT,1,1,,,.3
 JNORM,1,8.-3,.5,9500.;FORCE,1,1,,1.,0.,-100.;ENDDATA"
-run without_shear && says 'MU without a law of shear' "$work/without_shear.log" 'joint 1: MU has no effect, for the joint has no law of shear'
+run without_shear && says 'MU without a law of shear' "$work/without_shear.log" 'joint 1: MU has no effect, because the joint has no law of shear'

@@ -51,6 +51,7 @@ sed -i 's/^FORCEM,1,1000\.,0\.,-1\./FORCEM,1,1000.,0.1,-1./; s/^FORCEM,2,1\.,300
 rm -f "$work/limit_falling".*.csv "$work/limit_falling.out"
 run limit_falling 3
 near 'the pressure falls: missing' "$(missing limit_falling)" 100-20 2e-2
+near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
 
 # pressed and pushed from rest in one stage: limits and load grow together, and what is missing is T - MU N; pressed before, then pushed
 # and lifted off: at the end nothing is left that could hold, and T is missing
@@ -67,7 +68,9 @@ run lifted_off 3 && near 'pushed and lifted off: missing' "$(missing lifted_off)
   echo 'JOINT,1,1,22,21;PJOINT,1,1,2,2,.2;JNORM,1,1.-3,.5,3.+3;JSHEAR,2,1000.;SPC1,1,123,1,4,7,10,13,16;+,19,22,25'
   echo 'FORCEM,10,1600.,0.,0.,-1.,23;FORCEM,10,500.,1.,0.,0.,23;ENDDATA'; } | cards block_pushed
 run block_pushed 3 && near 'a block pressed and pushed: missing' "$(missing block_pushed)" '500 - 0.2*1600' 0.05
-near 'the pressure falls: the limit load' "$(last_state limit_falling)" '(1000 - 100/0.2)/900' 2e-2
+# MU of a joint without a law of shear bears nothing
+cards two_joints <<< "${together/BEGIN BULK/SUBCASE 2;LOAD = 2;BEGIN BULK};CJOINT,2,3,1,,10.,0.,-1.;PJOINT,3,1,,,.6;FORCE,2,1,,300.,0.,-1.;FORCE,2,1,,100.,1.;ENDDATA"
+run two_joints 3 && near 'MU without a law of shear beside friction: missing' "$(missing two_joints)" '100 - 0.2*150' 1e-2
 
 # One half of a taper in its seat, with an interference of 8 micrometres, pulled by FORCE. While it sticks, the taper bears N (MU - SLOPE)/(1 +
 # MU SLOPE), N of the joint at rest. As the taper comes out the pressure falls, and limits given by one state are too high in the next.

@@ -237,7 +237,7 @@ fit loop_words.dat
 near 'loops with the names of branches' 1e-5 loops
 printf '%s\n' 'lambda p' '0 0' '1 1' '2 4' '3 9' '2 6' '1 3' '0.5 1.5' '1 3' '2 6' '3 9' '4 16' > flat.dat
 fit flat.dat
-says 'E_u below the slope of the loading curve' stderr 'E_u = 3 is below the slope of the loading curve at p = 16, 8: unloading would be less steep than loading, and the set negative'
+says 'E_u below the slope of the loading curve' stderr 'E_u = 3 is below the slope of the loading curve at p = 16, 8: unloading would be less steep than loading, and the set would be negative'
 printf '%s\n' 'p lambda' '0 0' '1 2' '2 3' '3 3.5' '2 3.6' '1 3.7' '0 3.8' > back.dat
 fit back.dat
 says 'no line of unloading that rises' stderr 'lambda does not fall with p in unloading'
