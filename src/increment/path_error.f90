@@ -126,7 +126,7 @@ contains
       logical  :: decides, found(2), surely
       integer  :: i
 
-      decides = analysis%record%follows_path
+      decides = analysis%record%follows_path .and. ends(2) - ends(1) >= 1.0_wp
       allocate (before, source=way)
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
@@ -150,9 +150,9 @@ contains
          error%displacement = distance(at_end, analysis%u)
          if (analysis%record%follows_path .and. .not. error%unseen) &
             call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
-         ! an increment is not taken by a way that is not known
+         ! an increment is not taken in one part by a way that is not known
          if (surely .or. all(found) .or. .not. decides) exit
-         if (.not. is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
+         if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
          surely = .true.
       end do
       ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts

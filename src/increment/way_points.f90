@@ -49,7 +49,6 @@ contains
          allocate (own, source=attempt)
          own%growth = 0.0_wp
          call try_part(model, system, there, left, own, trial%u)
-         call move_alloc(analysis%record%kind, there%record%kind) ! of the committed states
          analysis%record = there%record
          attempt%coupled = own%coupled ! as the last factor is
          is_found = own%converged
