@@ -125,7 +125,8 @@ contains
       if (attempt%n_growing == diverging) then ! the body goes on the way that it went since the last limits
          associate (way => now%u - attempt%u_at_limits)
             attempt%lacking = missing_force(model, system, analysis, attempt, way, &
-                                            sum(now%residual*way, mask=.not. analysis%held))
+                                            sum(now%residual*way, mask=.not. analysis%held), &
+                                            sum(analysis%change*way, mask=.not. analysis%held))
          end associate
       end if
       attempt%u_at_limits = now%u
@@ -272,7 +273,7 @@ contains
          attempt%bearable = bearable
          whole = sum(analysis%change*direction, mask=.not. analysis%held) ! of the load of the increment
          attempt%falls = whole < most_of_work*work
-         attempt%missing = missing_force(model, system, analysis, attempt, direction, work)
+         attempt%missing = missing_force(model, system, analysis, attempt, direction, work, whole)
          i = maxloc([(norm2(joint_movement(system%interface(i), direction)), i = 1, size(system%interface))], dim=1)
          attempt%leaves = model%joints%element(i)%joint
       end subroutine note_missing
@@ -283,13 +284,14 @@ contains
    !! From the end of the part to the end of the increment the limits of sliding joints change at the rate that they have in the
    !! part; they do not fall below zero. They are left as they are where pressures do work too, or where limits diverge, as in a taper
    !! that comes out: there the limits follow the movement.
-   pure real(wp) function missing_force(model, system, analysis, attempt, direction, work) result(missing)
+   pure real(wp) function missing_force(model, system, analysis, attempt, direction, work, whole) result(missing)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(attempt_type), intent(in)     :: attempt
       real(wp), intent(in)               :: direction(:, :) !! (dimension, retained) [length]
       real(wp), intent(in)               :: work            !! of the unbalanced forces now [force*length]
+      real(wp), intent(in)               :: whole           !! of the load of the whole increment [force*length]
       real(wp) :: along(2) ! work of the limits of friction before the part and at its end [force*length]
       real(wp) :: across   ! work of the pressures at its end [force*length]
       real(wp) :: way(3)   ! movement at an element [length]
@@ -306,7 +308,7 @@ contains
             across = across + way(3)*element%area*attempt%seen(i)%pressure
          end associate
       end do
-      missing = work + attempt%left*sum(analysis%change*direction, mask=.not. analysis%held)
+      missing = work + attempt%left*whole
       if (abs(across) < slides*along(2)) missing = missing - max(attempt%left/attempt%part*(along(2) - along(1)), -along(2))
       missing = max(0.0_wp, missing)/max(maxval(abs(direction)), tiny(1.0_wp))
    end function missing_force

@@ -338,7 +338,7 @@ contains
             hung = attempt%verdict_type
             cycle
          end if
-         if (way == holding .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = hung
+         if (way == holding .and. attempt%n_moving == 0) attempt%verdict_type = hung
          if (is_expected(attempt) .or. is_clear(attempt)) exit
          if (way >= sticking .and. attempt%only == 0 .and. attempt%n_moving > 0 .and. ends_above_limit(attempt)) then
             attempt%tried_all = .false.
