@@ -122,6 +122,7 @@ module tolerances
    real(wp), parameter :: least_share = 1.0e-3_wp    !! of an increment: limits of friction that bear less of it are at their end
    real(wp), parameter :: least_start = 1.0e-4_wp    !! of an element's last pressure: nothing before it counts on a graded path
    real(wp), parameter :: on_the_path = 1.0e-4_wp    !! of the residual of the first guess: left at a state of the path, far below PATHTOL
+   real(wp), parameter :: off_path = 0.01_wp         !! of the largest deflection, pressure, the area: an error of path to warn of
    real(wp), parameter :: equal_shares = 1.0e-6_wp   !! of a limit: the rounding of a sum of areas
    real(wp), parameter :: no_contact = 1.0e-6_wp     !! of the largest pressure: an element pressed by less may as well be open
    real(wp), parameter :: least_scale = 1.0e-9_wp    !! of the largest value so far: what a difference to the law is relative to

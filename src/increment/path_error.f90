@@ -3,7 +3,8 @@
 !! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
 !! The displacements half way follow from the mean of both ends under the mean load. The exact laws are followed along the parabola
 !! through the three states up to three quarters of it, and from there to the equilibrium at its end. Both equilibria are found
-!! without a factorisation where corrections lead there. These states go on from part to part.
+!! without a factorisation where corrections lead near enough, and by iterations where what these leave would decide whether the error
+!! is within its limit. These states go on from part to part.
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
@@ -18,7 +19,7 @@ module path_error
    use newton_trial, only: attempt_type
    use normal_stiffness, only: branch_load, branch_open
    use straight_laws, only: loose_joints
-   use tolerances, only: equal_shares, least_start, loose_direction, no_contact
+   use tolerances, only: equal_shares, least_start, loose_direction, no_contact, off_path
    use way_points, only: correction, find_equilibrium
    implicit none
    private
@@ -123,10 +124,12 @@ contains
       type(element_state), allocatable :: along(:), before(:)
       real(wp), allocatable :: at_end(:, :)
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
-      logical  :: decides, found(2), surely
+      real(wp) :: doubts(2) ! about the equilibria half way and at the end, in the measure of the error
+      real(wp) :: limit
+      logical  :: surely
       integer  :: i
 
-      decides = analysis%record%follows_path .and. ends(2) - ends(1) >= 1.0_wp
+      limit = merge(analysis%path_tolerance, off_path, analysis%record%follows_path)
       allocate (before, source=way)
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
@@ -134,14 +137,14 @@ contains
       tally = system%coupled
       surely = .false.
       do
-         found = .true.
+         doubts = 0.0_wp
          if (attempt%iteration > 0) & ! otherwise there may be no factor
             call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, surely, &
-                                  analysis, attempt, along, found(1))
+                                  analysis, attempt, along, doubts(1))
          way = before
          call follow_way(model, system, start, half, analysis, way)
          at_end = analysis%u
-         call find_equilibrium(model, system, attempt%left, at_end, way, surely, analysis, attempt, along, found(2))
+         call find_equilibrium(model, system, attempt%left, at_end, way, surely, analysis, attempt, along, doubts(2))
          way = along
          do i = 1, size(way)
             call rest_when_open(way(i), joint_movement(system%interface(i), at_end))
@@ -150,9 +153,10 @@ contains
          error%displacement = distance(at_end, analysis%u)
          if (analysis%record%follows_path .and. .not. error%unseen) &
             call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
-         ! an increment is not taken in one part by a way that is not known
-         if (surely .or. all(found) .or. .not. decides) exit
-         if (.not. is_within(error, 1, e, analysis%path_tolerance)) exit
+         ! an error is not within its limit by a way that is not known
+         if (surely .or. error_size(error) > limit .or. error_size(error) + sum(doubts) <= limit) exit
+         if (analysis%record%follows_path .and. .not. &
+             is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
          surely = .true.
       end do
       ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts

@@ -17,13 +17,14 @@ module way_points
    public :: find_equilibrium, correction
    public :: approach ! for runs beside another one
 
-   integer, parameter :: most_corrections = 8
+   integer, parameter  :: most_corrections = 8
+   real(wp), parameter :: at_the_end = 0.1_wp ! of the pressures on the way: what remains of their error at its end, as measured
 
 contains
 
    !> The equilibrium ALONG the way with LEFT of the increment to go, to which the states BEFORE lead: its displacements from U, and its
    !! states. Where corrections do not find it but it must be found SURELY, it is reached as the end of a part is.
-   subroutine find_equilibrium(model, system, left, u, before, surely, analysis, attempt, along, is_found)
+   subroutine find_equilibrium(model, system, left, u, before, surely, analysis, attempt, along, doubt)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
       real(wp), intent(in)                  :: left     !! of the load [-], 0 to 1
@@ -33,7 +34,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations made
       type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(out)   :: along(:)
-      logical, intent(out)                  :: is_found
+      real(wp), intent(out)                 :: doubt    !! about its states, of the largest pressure [-]; 0: found
       type(trial_type) :: trial
       type(analysis_type), allocatable :: there
       type(attempt_type), allocatable  :: own
@@ -41,18 +42,20 @@ contains
 
       call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, analysis, attempt, trial, &
                     enough)
-      is_found = trial%size <= enough
-      if (surely .and. .not. is_found .and. attempt%iteration > 0) then
+      doubt = 0.0_wp
+      if (trial%size > enough) doubt = doubt_of(model, system, trial, analysis%held)
+      if (surely .and. doubt > 0.0_wp .and. attempt%iteration > 0) then
          allocate (there, source=analysis)
          there%states = before
          there%tolerance = enough
          allocate (own, source=attempt)
          own%growth = 0.0_wp
          call try_part(model, system, there, left, own, trial%u)
+         call move_alloc(analysis%record%kind, there%record%kind) ! of the committed states
          analysis%record = there%record
          attempt%coupled = own%coupled ! as the last factor is
-         is_found = own%converged
-         if (is_found) then
+         if (own%converged) then
+            doubt = 0.0_wp
             call move_alloc(there%u, u)
             call move_alloc(there%states, along)
             return
@@ -61,6 +64,33 @@ contains
       call move_alloc(trial%u, u)
       call move_alloc(trial%states, along)
    end subroutine find_equilibrium
+
+   !> What the residual of TRIAL may change at the end of the way: a share of the pressures that balance it at the nodes of a joint, root
+   !! mean square over the joint, the largest of all joints, of the largest pressure [-].
+   pure real(wp) function doubt_of(model, system, trial, held) result(doubt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(trial_type), intent(in)       :: trial
+      logical, intent(in)                :: held(:, :) !! (dimension, retained)
+      logical  :: on(size(held, 2))
+      real(wp) :: p
+      integer  :: i, j
+
+      doubt = 0.0_wp
+      p = max(maxval(trial%states%normal%p_a), maxval(trial%states%normal%pressure))
+      if (.not. p > 0.0_wp) return
+      do j = 1, size(model%joints%list)
+         associate (joint => model%joints%list(j))
+            on = .false.
+            do i = joint%first, joint%last
+               on(system%interface(i)%node) = .true.
+            end do
+            doubt = max(doubt, sqrt((joint%last - joint%first + 1)* &
+                                    sum(trial%residual**2, mask=spread(on, 1, size(held, 1)) .and. .not. held))/joint%area)
+         end associate
+      end do
+      doubt = at_the_end*doubt/p
+   end function doubt_of
 
    !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
    !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the

@@ -10,6 +10,7 @@ module distance_watch
    use restart_stream, only: restart_stream_type
    use stage_plan, only: node_pair
    use text_tools, only: integer_text, one_of, real_text
+   use tolerances, only: off_path
    use watched_nodes, only: find_watched, watch_answer, watch_state
    implicit none
    private
@@ -18,7 +19,6 @@ module distance_watch
 
    real(wp), parameter :: far = 0.02_wp      ! of the largest deflection or stress: beyond it the answer is not that of the laws
    real(wp), parameter :: decides = 0.01_wp  ! of the movement of a stage: by an E_u that nobody gave
-   real(wp), parameter :: off_path = 0.01_wp ! of the largest deflection or pressure, of the area of a joint: likewise of the path
 
    !> The largest distance from a law, or from the path, in a run.
    type, public :: farthest_type

@@ -73,6 +73,19 @@ DECKS
    run coarse && says 'without INCR: what shows the distance from the path' "$work/coarse.log" 'of the largest pressure away from the path .*; more increments, by INCR, show how far'
 }
 
+# A way whose middle corrections alone do not find: the distance from 400 increments is told.
+cp tests/exact/let_go.bdf "$work/let_go.bdf"
+for n in 1 400; do
+   sed "s/^SUBCASE.*/&\nINCR = 777/; s/^ENDDATA/JINCR,777,$n,ARITH,$(awk "BEGIN { printf \"%.4f\", 1/$n }")\nENDDATA/" tests/exact/let_go.bdf > "$work/let_go.$n.bdf"
+done
+run let_go && run let_go.1 && run let_go.400 && {
+   far=$(value let_go with "$work/let_go.400.joint.csv" on stage=2 on increment=400 on element rows 'stage = 2 and branch != "OPEN"' \
+      print 'max(abs(lambda - other.lambda))/max(lambda)*100')
+   told=$(sed -n 's/.*NEWTON is up to \([0-9.]*\) % of the largest lambda.*/\1/p' "$work/let_go.log")
+   holds "let_go: the distance told, ${told:=0} %, is that from 400 increments" "($told) > 0.5*($far)"
+   says 'let_go in one increment, farther away: it is warned of' "$work/let_go.1.out" 'WARNING: .* ERROR OF PATH .* OF THE LARGEST LAMBDA'
+}
+
 # PATHTOL: the smaller, the nearer to many increments, in more parts.
 in_increments cantilever && in_increments cantilever 320 && for tolerance in 1.0-2 1.0-5; do
    sed "s/^METHOD = NEWTON/&\nPATHTOL = $tolerance/" "$work/cantilever.path.bdf" > "$work/path$tolerance.bdf"
