@@ -29,6 +29,7 @@ module path_error
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
+   real(wp), parameter :: quarter = 0.25_wp          ! of the limit of the error: left of a doubt that would decide
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -125,8 +126,7 @@ contains
       real(wp), allocatable :: at_end(:, :)
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
       real(wp) :: doubts(2) ! about the equilibria half way and at the end, in the measure of the error
-      real(wp) :: limit
-      logical  :: surely
+      real(wp) :: limit, most_doubt
       integer  :: i
 
       limit = merge(analysis%path_tolerance, off_path, analysis%record%follows_path)
@@ -135,16 +135,16 @@ contains
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
       tally = system%coupled
-      surely = .false.
+      most_doubt = huge(1.0_wp)
       do
          doubts = 0.0_wp
          if (attempt%iteration > 0) & ! otherwise there may be no factor
-            call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, surely, &
+            call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, most_doubt, &
                                   analysis, attempt, along, doubts(1))
          way = before
          call follow_way(model, system, start, half, analysis, way)
          at_end = analysis%u
-         call find_equilibrium(model, system, attempt%left, at_end, way, surely, analysis, attempt, along, doubts(2))
+         call find_equilibrium(model, system, attempt%left, at_end, way, most_doubt, analysis, attempt, along, doubts(2))
          way = along
          do i = 1, size(way)
             call rest_when_open(way(i), joint_movement(system%interface(i), at_end))
@@ -154,10 +154,10 @@ contains
          if (analysis%record%follows_path .and. .not. error%unseen) &
             call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
          ! an error is not within its limit by a way that is not known
-         if (surely .or. error_size(error) > limit .or. error_size(error) + sum(doubts) <= limit) exit
+         if (most_doubt < limit .or. error_size(error) > limit .or. error_size(error) + sum(doubts) <= limit) exit
          if (analysis%record%follows_path .and. .not. &
              is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
-         surely = .true.
+         most_doubt = quarter*limit
       end do
       ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts
       if (system%coupled%n_factors == tally%n_factors) then

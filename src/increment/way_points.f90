@@ -23,14 +23,14 @@ module way_points
 contains
 
    !> The equilibrium ALONG the way with LEFT of the increment to go, to which the states BEFORE lead: its displacements from U, and its
-   !! states. Where corrections do not find it but it must be found SURELY, it is reached as the end of a part is.
-   subroutine find_equilibrium(model, system, left, u, before, surely, analysis, attempt, along, doubt)
+   !! states. Where corrections leave more than MOST_DOUBT, it is reached as the end of a part is.
+   subroutine find_equilibrium(model, system, left, u, before, most_doubt, analysis, attempt, along, doubt)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
       real(wp), intent(in)                  :: left     !! of the load [-], 0 to 1
       real(wp), allocatable, intent(inout)  :: u(:, :)  !! (dimension, retained) [length]
       type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
-      logical, intent(in)                   :: surely   !! by iterations if need be
+      real(wp), intent(in)                  :: most_doubt !! [-]
       type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations made
       type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(out)   :: along(:)
@@ -44,10 +44,10 @@ contains
                     enough)
       doubt = 0.0_wp
       if (trial%size > enough) doubt = doubt_of(model, system, trial, analysis%held)
-      if (surely .and. doubt > 0.0_wp .and. attempt%iteration > 0) then
+      if (doubt > most_doubt .and. attempt%iteration > 0) then
          allocate (there, source=analysis)
          there%states = before
-         there%tolerance = enough
+         there%tolerance = max(enough, most_doubt/doubt*trial%size)
          allocate (own, source=attempt)
          own%growth = 0.0_wp
          call try_part(model, system, there, left, own, trial%u)
@@ -55,7 +55,7 @@ contains
          analysis%record = there%record
          attempt%coupled = own%coupled ! as the last factor is
          if (own%converged) then
-            doubt = 0.0_wp
+            doubt = min(doubt, most_doubt)
             call move_alloc(there%u, u)
             call move_alloc(there%states, along)
             return
