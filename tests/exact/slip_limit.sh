@@ -34,6 +34,12 @@ run limit_pulled 3
 says 'shear without friction: the message' "$work/limit_pulled.log" \
    'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
 
+# STEP has no limits that it cannot exceed: 500 of push under a limit of 200 are said on the screen too
+limit limit_pushed 500. 0.
+sed -i 's/NEWTON/STEP/; s/^PJOINT,1,1,1,,0.2/&,,1.0/' "$work/limit_pushed.bdf"
+run limit_pushed
+says 'STEP beyond the limit: what friction does not bear' "$work/limit_pushed.log" 'stage 2, increment 3: friction limits are exceeded by 300 in all'
+
 # The push grows while the pressure falls, FX s = 0.2 (1000 - FY s): held limits of friction bear nothing and tell no limit load.
 for load in '300. 4000.' '3000. 4000.' '300. 900.'; do
    limit limit_falling $load
