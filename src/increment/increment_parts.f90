@@ -7,9 +7,12 @@ module increment_parts
    use equation_solver, only: failure_type
    use equations, only: equation_system
    use kinds, only: wp
+   use limit_load, only: agreement, cut, ends_above_limit, falls_too, follows_refused, go_on, is_alike, is_expected, is_near, &
+                         leaves_as_expected, limit_search, missing_by_parts, near_limit
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type, most_iterations, no_bounds, verdict_type
+   use newton_trial, only: attempt_type, every, extrapolated, from_best, holding, most_iterations, no_bounds, others, sticking, &
+                           straight, verdict_type
    use normal_stiffness, only: branch_open
    use tolerances, only: least_share
    implicit none
@@ -21,34 +24,15 @@ module increment_parts
    integer, parameter  :: most_of_path = 10000    ! iterations in all parts of an increment: 1 + 2 + ... + 64 equal ones have fewer
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
-   integer, parameter  :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4, holding = 5 ! ways of an attempt
-   integer, parameter  :: every = -1              ! of these ways, also after one by which a body moves on
-   integer, parameter  :: others = -2             ! all ways but STICKING, by which the part has just not been borne
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
    integer, parameter  :: clear = 2               ! steps along which a body moves on
    real(wp), parameter :: almost = 0.7_wp         ! of the part: given limits that bear so much are near to the limit load
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
-   real(wp), parameter :: least_cut = 0.1_wp      ! of a part: a cut leaves no less, as limits may grow with the load
-   real(wp), parameter :: below_limit = 0.7_wp    ! of the limit load: the next state; nearer to it almost everything slips
-   real(wp), parameter :: above_limit = 1.05_wp   ! of it: the state after that, which there is if the limit load is a wrong one
-   real(wp), parameter :: just_below = 0.999_wp   ! of it: the last state, so that the answer shows the limit load to three digits
-   real(wp), parameter :: agreement = 0.1_wp      ! of it: two estimates that differ by less confirm each other
-   real(wp), parameter :: alike = 0.25_wp         ! of the share that is borne of a larger part: limits grow as the load does
-   real(wp), parameter :: near_limit = 0.03_wp    ! of the load borne so far: so much more is the least part
+   real(wp), parameter :: just_below = 0.999_wp   ! of the limit load: the last state, so that the answer shows the limit load to three digits
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
    integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
    integer, parameter  :: least_to_it = 8         ! iterations that the last state needs; kept for it where nothing is borne
-
-   !> What the attempts so far tell of the limit load of an increment, with the verdict on the last part that was not borne.
-   type, extends(verdict_type) :: limit_search
-      real(wp) :: limit = 0.0_wp              !! estimate of the last part that was not borne, as a share of the load; 0: none [-]
-      real(wp) :: refused = huge(1.0_wp)      !! the least share that given limits have not borne [-]
-      real(wp) :: unborne = huge(1.0_wp)      !! the least share for which an attempt under given limits FAILS [-]
-      type(verdict_type) :: largest           !! verdict on the first part, the largest one, that given limits have not borne
-      integer  :: n_cut = 0                   !! parts not borne since one was
-      integer  :: only = 0                    !! way of the next attempt; 0: all, as far as needed; EVERY or OTHERS
-   end type limit_search
 
 contains
 
@@ -166,73 +150,6 @@ contains
       end if
    end subroutine reach
 
-   !> The PART after one that was borne: twice as large, or towards the limit load, which is confirmed from a state near it.
-   pure subroutine go_on(search, done, is_limited, part)
-      type(limit_search), intent(inout) :: search
-      real(wp), intent(in)              :: done       !! since the start of the increment [-]
-      logical, intent(inout)            :: is_limited !! given limits have not borne a part; not if the load now is beyond it
-      real(wp), intent(inout)           :: part       !! [-]
-
-      search%only = 0
-      search%n_cut = 0
-      is_limited = is_limited .and. done < search%refused - least_share
-      if (.not. is_limited) then
-         search = limit_search()
-         part = 2.0_wp*part
-      else if (is_near(search, done)) then
-         part = search%refused - done
-      else if (done < above_limit*search%limit) then
-         part = min(max(above_limit*search%limit - done, near_limit*done), search%refused - done)
-      else
-         part = 0.5_wp*(search%refused - done)
-         search%only = sticking
-      end if
-   end subroutine go_on
-
-   !> Whether the share that was not borne is so near that a part up to it confirms this.
-   pure logical function is_near(search, done)
-      type(limit_search), intent(in) :: search
-      real(wp), intent(in)           :: done !! since the start of the increment [-]
-
-      is_near = search%refused - done <= agreement*done
-   end function is_near
-
-   !> The PART instead of one that given limits have not borne: to a state below the limit load, which is there by straight laws, or
-   !! where nothing tells the limit load, to half of the part or less. Where a part has not been borne before, given limits tell in
-   !! fewer iterations whether they bear this one.
-   pure subroutine cut(search, done, attempt, part)
-      type(limit_search), intent(inout) :: search
-      real(wp), intent(in)              :: done    !! since the start of the increment [-]
-      type(attempt_type), intent(inout) :: attempt
-      real(wp), intent(inout)           :: part    !! [-]
-
-      search%refused = done + part
-      if (attempt%n_moving > 0) then
-         search%limit = merge(done + attempt%bearable*part, 0.0_wp, attempt%bearable > least_share)
-         search%verdict_type = attempt%verdict_type
-         if (search%largest%n_moving == 0) search%largest = attempt%verdict_type
-      end if
-      search%n_cut = search%n_cut + 1
-      if (search%n_cut > 1) part = 0.5_wp*part
-      part = max(below_limit*min(search%limit, done + part) - done, near_limit*done, &
-                 merge(0.5_wp, least_cut, attempt%is_limited)*part)
-      search%only = merge(straight, sticking, done + part < search%limit .and. .not. attempt%is_limited)
-      attempt%is_limited = .true.
-   end subroutine cut
-
-   !> The force that is missing at the end of the load, WHOLE shares after the start of the increment: that of SEARCH, whose limit load
-   !! is too high where less was not borne, and too low where more was. Beyond the limit load the force grows with the load. It stands
-   !! where SEARCH has no limit load, and where a body falls that the load does not push.
-   pure real(wp) function missing_by_parts(search, done, whole) result(missing)
-      type(limit_search), intent(in) :: search
-      real(wp), intent(in)           :: done  !! since the start of the increment [-]
-      real(wp), intent(in)           :: whole !! likewise
-
-      missing = search%missing
-      if (search%limit > 0.0_wp .and. .not. search%falls) missing = missing* &
-         (whole - min(max(search%limit, done), search%unborne))/max(whole - search%limit, least_share)
-   end function missing_by_parts
-
    !> Go on from DONE to SHARE of the increment, just below the limit load, if straight laws lead there.
    subroutine approach_limit(model, system, analysis, attempt, share, done)
       type(model_type), intent(in)          :: model
@@ -348,55 +265,6 @@ contains
       end do
       if (attempt%only == others .and. .not. attempt%converged .and. attempt%n_moving == 0) attempt%verdict_type = before
    end subroutine try_part
-
-   !> Whether given limits have not borne a larger part than that of ATTEMPT, from an earlier state: the load of ATTEMPT is expected
-   !! to be above the limit load, or near it.
-   pure logical function follows_refused(attempt)
-      type(attempt_type), intent(in) :: attempt
-
-      follows_refused = attempt%expected(1) <= attempt%expected(2)
-   end function follows_refused
-
-   !> Whether such a part ends above the limit load, as far as the larger one has told it, or within AGREEMENT below it.
-   pure logical function ends_above_limit(attempt)
-      type(attempt_type), intent(in) :: attempt
-
-      ends_above_limit = follows_refused(attempt) .and. attempt%expected(1) <= 1.0_wp
-   end function ends_above_limit
-
-   !> Whether given limits have not borne the part, and bear the share of it that a larger part has let expect.
-   pure logical function is_expected(attempt)
-      type(attempt_type), intent(in) :: attempt
-
-      is_expected = attempt%n_moving > 0 .and. attempt%bearable >= attempt%expected(1) .and. attempt%bearable <= attempt%expected(2)
-   end function is_expected
-
-   !> Whether given limits bear about the same share of the part as they do of a larger one, from the same state.
-   pure logical function is_alike(attempt, larger)
-      type(attempt_type), intent(in) :: attempt
-      type(verdict_type), intent(in) :: larger
-
-      is_alike = larger%n_moving > 0 .and. abs(attempt%bearable - larger%bearable) <= &
-                 max(alike*larger%bearable, least_share)
-   end function is_alike
-
-   !> Whether a joint has left its place, though given limits tell no share that they bear, in a part that ends above the limit load
-   !! that a larger part has told.
-   pure logical function leaves_as_expected(attempt)
-      type(attempt_type), intent(in) :: attempt
-
-      leaves_as_expected = attempt%n_moving == 0 .and. attempt%leaves > 0 .and. ends_above_limit(attempt) .and. &
-                           attempt%expected(2) > 0.0_wp
-   end function leaves_as_expected
-
-   !> Whether something falls as in a larger part, as SEARCH has it, or a joint leaves its place after that: a gib that nothing
-   !! presses any more falls whatever the load of the part.
-   pure logical function falls_too(search, attempt)
-      type(limit_search), intent(in) :: search
-      type(attempt_type), intent(in) :: attempt
-
-      falls_too = search%falls .and. merge(attempt%falls, attempt%leaves > 0, attempt%n_moving > 0)
-   end function falls_too
 
    !> Whether given limits have not borne the part, and nothing better is to be expected of another way: almost all of it, or nothing.
    pure logical function is_clear(attempt)

@@ -21,6 +21,9 @@ module newton_trial
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
    integer, parameter, public :: most_iterations = 60
    real(wp), parameter, public :: no_bounds(2) = [1.0_wp, 0.0_wp] !! of EXPECTED: the first is the larger one
+   integer, parameter, public :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4, holding = 5 !! ways of an attempt
+   integer, parameter, public :: every = -1       !! of these ways, also after one by which a body moves on
+   integer, parameter, public :: others = -2      !! all ways but STICKING, by which the part has just not been borne
 
    !> What given limits say of a part that they do not bear.
    type, public :: verdict_type
