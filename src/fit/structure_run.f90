@@ -333,7 +333,7 @@ contains
          allocate (before, source=analysis%states)
          u = analysis%u + first%du
          do i = 1, 2 ! each leaves ON_THE_PATH of the residual where it begins, if that is more than the tolerance
-            call approach(model, system, analysis%now%condensed_load, u, before, analysis, attempt, trial, enough)
+            call approach(model, system, analysis%now%condensed_load, u, before, 0.0_wp, analysis, attempt, trial, enough)
             if (trial%size <= analysis%tolerance) exit
             u = trial%u
          end do

@@ -18,6 +18,7 @@ module way_points
    public :: approach ! for runs beside another one
 
    integer, parameter  :: most_corrections = 8
+   real(wp), parameter :: no_doubt = 0.01_wp  ! of PATHTOL: corrections end
    real(wp), parameter :: at_the_end = 0.1_wp ! of the pressures on the way: what remains of their error at its end, as measured
 
 contains
@@ -40,8 +41,8 @@ contains
       type(attempt_type), allocatable  :: own
       real(wp) :: enough
 
-      call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, analysis, attempt, trial, &
-                    enough)
+      call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, &
+                    no_doubt*analysis%path_tolerance, analysis, attempt, trial, enough)
       doubt = 0.0_wp
       if (trial%size > enough) doubt = doubt_of(model, system, trial, analysis%held)
       if (doubt > most_doubt .and. attempt%iteration > 0) then
@@ -96,11 +97,12 @@ contains
    !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
    !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
    !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
-   subroutine approach(model, system, load, u, before, analysis, attempt, trial, enough)
+   subroutine approach(model, system, load, u, before, least_doubt, analysis, attempt, trial, enough)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: load(:, :), u(:, :)
       type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
+      real(wp), intent(in)                  :: least_doubt         !! below which the corrections end too [-]
       type(analysis_type), intent(inout)    :: analysis            !! likewise
       type(attempt_type), intent(inout)     :: attempt             !! likewise
       type(trial_type), intent(out)         :: trial
@@ -121,6 +123,7 @@ contains
       first = 1
       do i = 1, most_corrections
          if (trial%size <= enough .or. attempt%iteration == 0) exit
+         if (doubt_of(model, system, trial, analysis%held) <= least_doubt) exit
          left = merge(0.0_wp, last%residual, analysis%held)
          steps(:, :, i) = 0.0_wp
          do k = first, i - 1
