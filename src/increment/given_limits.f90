@@ -280,7 +280,7 @@ contains
 
    end subroutine minimise
 
-   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of its largest component.
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of the largest movement of a node.
    !! From the end of the part to the end of the increment the limits of sliding joints change at the rate that they have in the
    !! part; they do not fall below zero. They are left as they are where pressures do work too, or where limits diverge, as in a taper
    !! that comes out: there the limits follow the movement.
@@ -310,7 +310,7 @@ contains
       end do
       missing = work + attempt%left*whole
       if (abs(across) < slides*along(2)) missing = missing - max(attempt%left/attempt%part*(along(2) - along(1)), -along(2))
-      missing = max(0.0_wp, missing)/max(maxval(abs(direction)), tiny(1.0_wp))
+      missing = max(0.0_wp, missing)/max(maxval(norm2(direction, dim=1)), tiny(1.0_wp))
    end function missing_force
 
    !> The step along DIRECTION at which an interface element has moved by the width of the largest joint: no body finds hold beyond it.
