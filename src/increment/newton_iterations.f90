@@ -91,8 +91,8 @@ contains
          end if
          if ((attempt%converged .and. (attempt%iteration > 0 .or. .not. attempt%renews)) .or. attempt%ends) exit
          anew = attempt%iteration == 0
-         ! straight laws along which the energy hardly falls are poor: the tangents lead down
-         if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. attempt%step < short
+         ! straight laws along which the energy hardly falls are poor: the tangents lead down, unless interference pushes bodies apart
+         if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. (attempt%step < short .and. .not. attempt%seats)
          if (anew) call laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then
             call first_laws(model, now, analysis%increment <= 1, laws)
