@@ -1,8 +1,8 @@
 !> The error of path of METHOD = NEWTON: how far the end of an increment is from the limit of many increments.
 !! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
 !! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
-!! The displacements half way follow from the mean of both ends under the mean load. The exact laws are followed along the parabola
-!! through the three states up to three quarters of it, and from there to the equilibrium at its end. Both equilibria are found
+!! The displacements half way follow from the mean of both ends under the mean load, and where the error would be within its limit,
+!! those at a quarter from the parabola through the three states. The exact laws are followed along it up to three quarters, and from there to the equilibrium at its end. Both equilibria are found
 !! without a factorisation where corrections lead near enough, and by iterations where what these leave would decide whether the error
 !! is within its limit. These states go on from part to part.
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
@@ -29,7 +29,7 @@ module path_error
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
-   real(wp), parameter :: quarter = 0.25_wp          ! of the limit of the error: left of a doubt that would decide
+   real(wp), parameter :: quarter = 0.25_wp          ! of the limit of the error: left of a doubt that would decide; of the way
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -123,8 +123,9 @@ contains
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(coupled_tally) :: tally
       type(element_state), allocatable :: along(:), before(:)
-      real(wp), allocatable :: at_end(:, :)
+      real(wp), allocatable :: at_end(:, :), early(:, :)
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
+      real(wp) :: share     ! at a quarter of the way
       real(wp) :: doubts(2) ! about the equilibria half way and at the end, in the measure of the error
       real(wp) :: limit, most_doubt
       integer  :: i
@@ -134,6 +135,8 @@ contains
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
+      ! an attempt from known displacements without iterations has the factor of those before it in the increment
+      if (analysis%record%n_iterations > 0) attempt%iteration = max(1, attempt%iteration)
       tally = system%coupled
       most_doubt = huge(1.0_wp)
       do
@@ -142,7 +145,7 @@ contains
             call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, most_doubt, &
                                   analysis, attempt, along, doubts(1))
          way = before
-         call follow_way(model, system, start, half, analysis, way)
+         call follow_way(model, system, start, early, half, analysis, way)
          at_end = analysis%u
          call find_equilibrium(model, system, attempt%left, at_end, way, most_doubt, analysis, attempt, along, doubts(2))
          way = along
@@ -153,11 +156,21 @@ contains
          error%displacement = distance(at_end, analysis%u)
          if (analysis%record%follows_path .and. .not. error%unseen) &
             call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
-         ! an error is not within its limit by a way that is not known
-         if (most_doubt < limit .or. error_size(error) > limit .or. error_size(error) + sum(doubts) <= limit) exit
+         ! an error is not within its limit by a way that is not known, nor by one of three points alone
+         if (error_size(error) > limit .or. attempt%iteration == 0) exit
          if (analysis%record%follows_path .and. .not. &
              is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
-         most_doubt = quarter*limit
+         if (error_size(error) + sum(doubts) > limit .and. most_doubt > limit) then
+            most_doubt = quarter*limit
+         else if (.not. allocated(early)) then
+            share = share_of(ends(1) + quarter*(ends(2) - ends(1)), e)
+            early = 0.375_wp*start%u + 0.75_wp*half - 0.125_wp*analysis%u
+            call find_equilibrium(model, system, attempt%left + shares(3) - share, early, start%states, huge(1.0_wp), &
+                                  analysis, attempt, along, doubts(1))
+            if (doubts(1) > quarter*analysis%path_tolerance) exit ! not known: the error is that of the way over HALF alone
+         else
+            exit
+         end if
       end do
       ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts
       if (system%coupled%n_factors == tally%n_factors) then
@@ -192,12 +205,14 @@ contains
       end do
    end subroutine look_ahead
 
-   !> Follow the states ALONG the way from START over HALF up to three quarters of it.
-   subroutine follow_way(model, system, start, half, analysis, along)
+   !> Follow the states ALONG the way from START over HALF up to three quarters of it, and before it over EARLY at a quarter if this is
+   !! known.
+   subroutine follow_way(model, system, start, early, half, analysis, along)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(path_start_type), intent(in)  :: start
-      real(wp), intent(in)               :: half(:, :)
+      real(wp), allocatable, intent(in)  :: early(:, :) !! (dimension, retained) [length]; not allocated: not known
+      real(wp), intent(in)               :: half(:, :)  !! likewise
       type(analysis_type), intent(in)    :: analysis
       type(element_state), intent(inout) :: along(:)
       real(wp), parameter :: weights(3, 3) = reshape([0.375_wp, 0.75_wp, -0.125_wp, 0.0_wp, 1.0_wp, 0.0_wp, &
@@ -217,6 +232,7 @@ contains
                   ! no further than its ends: a parabola through uneven steps turns by itself
                   movement = min(max(movement, minval(ends, dim=2)), maxval(ends, dim=2))
                end associate
+               if (k == 1 .and. allocated(early)) movement = joint_movement(system%interface(i), early)
                call follow_element(model%joints%list(element%joint)%law, element%area, along(i), movement, after, tangent)
                call rest_when_open(after, movement)
                along(i) = after
