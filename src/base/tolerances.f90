@@ -104,6 +104,7 @@ module tolerances
    real(wp), parameter :: rounding_of_path = 1.0e-12_wp !! of the path of shear: no shorter piece is begun; of slopes: no difference
    real(wp), parameter :: touching_curve = 1.0e-11_wp !! of the stresses: a branch meets a curve; below the change by rounding
    real(wp), parameter :: slip_margin = 1.0e-9_wp    !! of the friction limit: rounding does not cause slip
+   real(wp), parameter :: no_excess = 1.0e-12_wp     !! of the sum of all limits: excess that is rounding
    real(wp), parameter :: flag_margin = 1.0e-7_wp    !! of the limit: the remainder of a relief is no slip in the next increment
    real(wp), parameter :: rest_margin = -1.0e-6_wp   !! of the limit: settled secants are at the limit to which BACK cuts them
    real(wp), parameter :: settled_secant = 1.0e-4_wp !! of a secant of BACK: deflections are settled to less

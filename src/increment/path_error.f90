@@ -1,10 +1,11 @@
 !> The error of path of METHOD = NEWTON: how far the end of an increment is from the limit of many increments.
 !! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
 !! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
-!! The displacements half way follow from the mean of both ends under the mean load, and where the error would be within its limit,
-!! those at a quarter from the parabola through the three states. The exact laws are followed along it up to three quarters, and from there to the equilibrium at its end. Both equilibria are found
-!! without a factorisation where corrections lead near enough, and by iterations where what these leave would decide whether the error
-!! is within its limit. These states go on from part to part.
+!! The displacements half way follow from the mean of both ends under the mean load, and where the error would be within its
+!! limit, those at a quarter from the parabola through the three states. The exact laws are followed along it up to three
+!! quarters, and from there to the equilibrium at its end. Both equilibria are found without a factorisation where corrections
+!! lead near enough, and by iterations where what these leave would decide whether the error is within its limit. These states go
+!! on from part to part.
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error

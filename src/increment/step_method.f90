@@ -13,7 +13,7 @@ module step_method
    use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
-   use tolerances, only: flag_margin
+   use tolerances, only: flag_margin, no_excess
    implicit none
    private
 
@@ -140,7 +140,9 @@ contains
       is_listed = plan%stages(analysis%stage)%output%level >= output_joint
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
-         if (total <= 0.0_wp) return
+         ! an element that is pulled has no limit: its excess falls in every re-analysis and never ends
+         if (total <= no_excess*sum([(friction_limit(model%joints%list(model%joints%element(i)%joint)%law, &
+            analysis%states(i)%normal%pressure)*model%joints%element(i)%area, i = 1, size(relieved))])) return
          relieved = any(abs(excess) > 0.0_wp, dim=1) .and. (passes < 0 .or. reanalysis <= passes)
          if (.not. any(relieved)) return
          ! the listing has the first re-analyses, and the last one in place of those between
