@@ -110,14 +110,15 @@ contains
             if (.not. done > ends(1) .and. moves .and. is_alike(attempt, search%largest)) then
                attempt%missing = search%largest%missing
                attempt%leaves = search%largest%leaves
-            else if (agrees .or. search%falls .or. .not. moves) then ! those of the larger part
+            else if (search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
                attempt%leaves = search%leaves
                if (.not. (agrees .or. moves)) attempt%missing = missing_by_parts(search, done - ends(1), 1.0_wp - ends(1))
             end if
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
-            attempt%is_unsure = is_spent .and. .not. is_confirmed
+            attempt%is_unsure = (is_spent .and. .not. is_confirmed) .or. (is_alike(attempt, search%largest) .and. moves .and. &
+                                .not. done > ends(1) .and. abs(attempt%bearable - search%largest%bearable) > near_limit)
             attempt%until = at_most
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit

@@ -34,6 +34,29 @@ run limit_pulled 3
 says 'shear without friction: the message' "$work/limit_pulled.log" \
    'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
 
+# A block of 800 N on MU 0.2, pushed by 200: 40 are missing along the slope, at whatever angle the model lies; what it says is a force, and
+# not its component. A block pressed by 1,000, then pushed: what is missing is the push less 100.
+for angle in 0 15 45; do
+   awk -v angle=$angle 'function at(x, y) { return sprintf("%.12f,%.12f", c*x - s*y, s*x + c*y) }
+      BEGIN { a = angle*atan2(0, -1)/180; c = cos(a); s = sin(a); print "METHOD = NEWTON\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK"
+         printf "BLOCK2,1,1,4,2,%s,%s\n,%s,%s\n,20,,21\n", at(0, 0), at(40, 0), at(40, 20), at(0, 20)
+         print "PSHELL,1,1,10.\nMAT1,1,2.+5,,0.3\nPMARK,20\nPMARK,21\nJOINT,1,1,20\nPJOINT,1,1,1,,0.2\nJNORM,1,1.-3,0.5,1.+4\nJSHEAR,1,2000."
+         printf "FORCEM,1,800.,%s,0.,21\nFORCEM,1,200.,%s,0.,20\nENDDATA\n", at(0, -1), at(1, 0) }' > "$work/turned.bdf"
+   rm -f "$work"/turned.out "$work"/turned.*.csv
+   run turned 3
+   near "pushed along a slope of $angle degrees: missing" "$(missing turned)" 40 1e-3
+done
+for push in 110 130; do
+   cards elastic_block <<END
+METHOD = NEWTON;SUBCASE 1;LOAD = 1;SUBCASE 2;LOAD = 2;BEGIN BULK
+BLOCK2,1,1,6,4,0.,0.;,60.,40.,,,,,1,1;,20,31,30;PSHELL,1,1,10.;MAT1,1,2.+5,,0.3;PMARK,20;PMARK,30;PMARK,31;JOINT,1,1,20
+PJOINT,1,1,1,,0.1;JNORM,1,1.-3,0.5,1.+5;JSHEAR,1,500.;FORCEM,1,1000.,0.,-1.,,30;FORCEM,2,1000.,0.,-1.,,30;FORCEM,2,$push.,-1.,0.,,31;ENDDATA
+END
+   rm -f "$work"/elastic_block.out "$work"/elastic_block.*.csv
+   run elastic_block 3
+   near "an elastic block pressed by 1,000, pushed by $push: missing" "$(missing elastic_block)" $push-100 1e-3
+done
+
 # STEP has no limits that it cannot exceed: 500 of push under a limit of 200 are said on the screen too
 limit limit_pushed 500. 0.
 sed -i 's/NEWTON/STEP/; s/^PJOINT,1,1,1,,0.2/&,,1.0/' "$work/limit_pushed.bdf"
