@@ -280,8 +280,8 @@ contains
 
    end subroutine minimise
 
-   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of the largest movement of a node.
-   !! From the end of the part to the end of the increment the limits of sliding joints change at the rate that they have in the
+   !> The force that is missing at the end of the increment for the movement along DIRECTION, per unit of the largest movement of a
+   !! node. From the end of the part to the end of the increment the limits of sliding joints change at the rate that they have in the
    !! part; they do not fall below zero. They are left as they are where pressures do work too, or where limits diverge, as in a taper
    !! that comes out: there the limits follow the movement.
    pure real(wp) function missing_force(model, system, analysis, attempt, direction, work, whole) result(missing)

@@ -30,6 +30,7 @@ module increment_parts
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: just_below = 0.999_wp   ! of the limit load: the last state, so that the answer shows the limit load to three digits
+   real(wp), parameter :: equal_shares = 0.03_wp  ! of two parts, that are borne: where they differ more nothing is confirmed
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
    integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
    integer, parameter  :: least_to_it = 8         ! iterations that the last state needs; kept for it where nothing is borne
@@ -51,7 +52,7 @@ contains
       type(limit_search) :: search
       real(wp) :: done, estimate, left, part
       integer  :: at_most, begun
-      logical  :: agrees, confirms, is_confirmed, is_last, is_spent, moves
+      logical  :: agrees, alike, confirms, is_confirmed, is_last, is_spent, moves
 
       attempt%expected = no_bounds
       attempt%until = huge(1)
@@ -106,19 +107,20 @@ contains
             end if
             estimate = done
             if (moves) estimate = done + attempt%bearable*part
+            alike = moves .and. .not. done > ends(1) .and. is_alike(attempt, search%largest)
             ! where the limits grow with the load, the largest part gives the best missing force
-            if (.not. done > ends(1) .and. moves .and. is_alike(attempt, search%largest)) then
+            if (alike) then
                attempt%missing = search%largest%missing
                attempt%leaves = search%largest%leaves
             else if (search%falls .or. .not. moves) then ! those of the larger part
                attempt%missing = search%missing
                attempt%leaves = search%leaves
-               if (.not. (agrees .or. moves)) attempt%missing = missing_by_parts(search, done - ends(1), 1.0_wp - ends(1))
+               if (.not. moves) attempt%missing = missing_by_parts(search, done - ends(1), 1.0_wp - ends(1))
             end if
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
-            attempt%is_unsure = (is_spent .and. .not. is_confirmed) .or. (is_alike(attempt, search%largest) .and. moves .and. &
-                                .not. done > ends(1) .and. abs(attempt%bearable - search%largest%bearable) > near_limit)
+            attempt%is_unsure = (is_spent .and. .not. is_confirmed) .or. &
+                                (alike .and. abs(attempt%bearable - search%largest%bearable) > equal_shares)
             attempt%until = at_most
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit

@@ -1,5 +1,5 @@
-!> The search of the limit load of an increment of METHOD = NEWTON: what its parts have told of it, and which part follows one that was
-!! borne, or was not. A part that given limits of friction do not bear is cut to a state below the limit load that they tell; from
+!> The search of the limit load of an increment of METHOD = NEWTON: what its parts have told of it, and which part follows one that
+!! was borne, or was not. A part that given limits of friction do not bear is cut to a state below the limit load that they tell; from
 !! there a part above it confirms it.
 module limit_load
    use kinds, only: wp

@@ -37,7 +37,7 @@ module newton_iterations
    real(wp), parameter :: far_off = 10.0_wp            ! times the residual of a guess: its first step is searched
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
-   real(wp), parameter :: short = 0.1_wp               ! of a direction under given limits: the next straight laws are the tangents
+   real(wp), parameter :: short = 0.1_wp               ! step under given limits [-]: after a shorter one the next straight laws are tangents
    real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a body has touched another where the least energy is before it
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
@@ -91,7 +91,7 @@ contains
          end if
          if ((attempt%converged .and. (attempt%iteration > 0 .or. .not. attempt%renews)) .or. attempt%ends) exit
          anew = attempt%iteration == 0
-         ! straight laws along which the energy hardly falls are poor: the tangents lead down, unless interference pushes bodies apart
+         ! a short step shows that the straight laws do not follow the energy; the tangents do, unless interference parts bodies
          if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. (attempt%step < short .and. .not. attempt%seats)
          if (anew) call laws_at(model, system, now, laws)
          if (attempt%iteration == 0 .and. .not. guessed) then

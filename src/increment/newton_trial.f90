@@ -96,7 +96,7 @@ module newton_trial
       logical  :: ends = .false.                  !! no further iteration
       logical  :: fails = .false.                 !! given limits, not cut short, have led to no equilibrium
       type(failure_type) :: trouble               !! a matrix that could not be factorised
-      logical  :: is_unsure = .false.             !! no second estimate has confirmed the limit load in so many iterations
+      logical  :: is_unsure = .false.             !! no second estimate has confirmed the limit load
       real(wp) :: left_over = 1.0_wp              !! fraction of the increment left where no part of it was possible [-]
       logical, allocatable :: loose(:)            !! joints that are open or slip entirely at the end
       integer  :: worst(2) = 0                    !! node and direction of the largest residual at the end

@@ -2,10 +2,10 @@
 !! An increment, or a part of it, takes every interface element from its start to its end in one movement. An element that the load
 !! presses and lets go meanwhile, or whose shear and pressure do not grow in proportion, would come to another force along the path.
 !! The displacements half way follow from the mean of both ends under the mean load, and where the error would be within its
-!! limit, those at a quarter from the parabola through the three states. The exact laws are followed along it up to three
-!! quarters, and from there to the equilibrium at its end. Both equilibria are found without a factorisation where corrections
-!! lead near enough, and by iterations where what these leave would decide whether the error is within its limit. These states go
-!! on from part to part.
+!! limit, those at a quarter from it and the start. The exact laws are followed over the quarter and along the parabola through
+!! start, half and end up to three quarters, and from there to the equilibrium at the end. The equilibria are found without a
+!! factorisation where corrections lead near enough. Where the unbalanced forces that these leave could change whether the error
+!! is within its limit, those half way and at the end are found by iterations. These states go on from part to part.
 !! Where elements with shear are pressed from nearly nothing, shear and pressure grow together from there, and the first of equal parts
 !! is like the whole. The parts are graded then: the pressure grows from part to part by shares of itself.
 module path_error
@@ -30,7 +30,8 @@ module path_error
    real(wp), parameter :: contact_per_tol = 10.0_wp  ! share of the area that may change its contact, in PATHTOL
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
-   real(wp), parameter :: quarter = 0.25_wp          ! of the limit of the error: left of a doubt that would decide; of the way
+   real(wp), parameter :: at_quarter = 0.25_wp       ! of the way
+   real(wp), parameter :: certain = 0.25_wp          ! of PATHTOL: uncertainty of an equilibrium at a quarter that is known
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -113,13 +114,13 @@ contains
    !! START, whose displacements HALF way are found. ERROR is that of the committed states from the end of the WAY.
    subroutine measure_path(model, system, start, ends, e, analysis, attempt, way, error, half)
       type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration; returned as it was
-      type(path_start_type), intent(inout)  :: start    !! likewise
+      class(equation_system), intent(inout) :: system   !! with the factor of the last iteration; returned with that of the last one
+      type(path_start_type), intent(inout)  :: start    !! returned as it was
       real(wp), intent(in)                  :: ends(2)  !! of the part, before grading [-], 0 to 1
       real(wp), intent(in)                  :: e        !! of grading
-      type(analysis_type), intent(inout)    :: analysis !! likewise
-      type(attempt_type), intent(inout)     :: attempt  !! likewise
-      type(element_state), allocatable, intent(inout) :: way(:)
+      type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations recorded
+      type(attempt_type), intent(inout)     :: attempt  !! likewise, but for COUPLED and ITERATION
+      type(element_state), allocatable, intent(inout) :: way(:) !! (interface elements)
       type(path_error_type), intent(out)    :: error
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(coupled_tally) :: tally
@@ -127,8 +128,9 @@ contains
       real(wp), allocatable :: at_end(:, :), early(:, :)
       real(wp) :: shares(3) ! of the increment's load at the start, half way and at the end
       real(wp) :: share     ! at a quarter of the way
-      real(wp) :: doubts(2) ! about the equilibria half way and at the end, in the measure of the error
-      real(wp) :: limit, most_doubt
+      real(wp) :: uncertainty(2) ! of the equilibria half way and at the end, in the measure of the error
+      real(wp) :: allowed, limit, of_early
+      logical  :: iterates
       integer  :: i
 
       limit = merge(analysis%path_tolerance, off_path, analysis%record%follows_path)
@@ -136,19 +138,20 @@ contains
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
       if (size(way) == 0) return
-      ! an attempt from known displacements without iterations has the factor of those before it in the increment
+      ! an attempt that begins in equilibrium makes no factor; that of earlier iterations of the increment serves
       if (analysis%record%n_iterations > 0) attempt%iteration = max(1, attempt%iteration)
       tally = system%coupled
-      most_doubt = huge(1.0_wp)
+      iterates = .false.
+      allowed = huge(1.0_wp)
       do
-         doubts = 0.0_wp
+         uncertainty = 0.0_wp
          if (attempt%iteration > 0) & ! otherwise there may be no factor
-            call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, most_doubt, &
-                                  analysis, attempt, along, doubts(1))
+            call find_equilibrium(model, system, attempt%left + shares(3) - shares(2), half, start%states, allowed, &
+                                  analysis, attempt, along, uncertainty(1))
          way = before
          call follow_way(model, system, start, early, half, analysis, way)
          at_end = analysis%u
-         call find_equilibrium(model, system, attempt%left, at_end, way, most_doubt, analysis, attempt, along, doubts(2))
+         call find_equilibrium(model, system, attempt%left, at_end, way, allowed, analysis, attempt, along, uncertainty(2))
          way = along
          do i = 1, size(way)
             call rest_when_open(way(i), joint_movement(system%interface(i), at_end))
@@ -157,23 +160,26 @@ contains
          error%displacement = distance(at_end, analysis%u)
          if (analysis%record%follows_path .and. .not. error%unseen) &
             call look_ahead(model, system, (shares(3) - shares(1))*analysis%change, attempt, analysis, error%unseen)
-         ! an error is not within its limit by a way that is not known, nor by one of three points alone
+         ! an error is within its limit only by a way that is known well enough, and over a quarter if that is known
          if (error_size(error) > limit .or. attempt%iteration == 0) exit
          if (analysis%record%follows_path .and. .not. &
              is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
-         if (error_size(error) + sum(doubts) > limit .and. most_doubt > limit) then
-            most_doubt = quarter*limit
+         if (error_size(error) + sum(uncertainty) > limit) then
+            if (iterates) error%unseen = .true.
+            if (iterates) exit
+            iterates = .true.
+            allowed = 0.5_wp*(limit - error_size(error))
          else if (.not. allocated(early)) then
-            share = share_of(ends(1) + quarter*(ends(2) - ends(1)), e)
-            early = 0.375_wp*start%u + 0.75_wp*half - 0.125_wp*analysis%u
+            share = share_of(ends(1) + at_quarter*(ends(2) - ends(1)), e)
+            early = start%u + (share - shares(1))/(shares(2) - shares(1))*(half - start%u)
             call find_equilibrium(model, system, attempt%left + shares(3) - share, early, start%states, huge(1.0_wp), &
-                                  analysis, attempt, along, doubts(1))
-            if (doubts(1) > quarter*analysis%path_tolerance) exit ! not known: the error is that of the way over HALF alone
+                                  analysis, attempt, along, of_early)
+            if (of_early > certain*analysis%path_tolerance) exit ! not known: the error is that of the way over HALF alone
          else
             exit
          end if
       end do
-      ! iterations may have made a factor of their own, to which the directions of before do not belong; the cost of all steps counts
+      ! iterations may have made a factor of their own, to which the earlier directions do not belong; the cost of all steps counts
       if (system%coupled%n_factors == tally%n_factors) then
          tally%extra = system%coupled%extra
          tally%spent = system%coupled%spent
@@ -181,8 +187,8 @@ contains
       end if
    end subroutine measure_path
 
-   !> Whether the committed state TURNS back: if the part's CHANGE of load went on, an element on the loading branch would be let go by
-   !! more than PATHTOL. It has been pressed more before, between the points of the way.
+   !> Whether the committed state TURNS back: if the part's CHANGE of load went on, an element on the loading branch would be let go
+   !! by more than PATHTOL. It has been pressed more before, between the points of the way.
    subroutine look_ahead(model, system, change, attempt, analysis, turns)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -206,8 +212,7 @@ contains
       end do
    end subroutine look_ahead
 
-   !> Follow the states ALONG the way from START over HALF up to three quarters of it, and before it over EARLY at a quarter if this is
-   !! known.
+   !> Follow the states ALONG the way from START over HALF up to three quarters of it, over EARLY at a quarter if this is known.
    subroutine follow_way(model, system, start, early, half, analysis, along)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system

@@ -121,7 +121,8 @@ contains
    end subroutine limit_friction
 
    !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess. The excess is applied at its two
-   !! ends, and the structure is analysed again with the same stiffness, NREAN times; for NREAN = -1 as long as any excess is left.
+   !! ends, and the structure is analysed again with the same stiffness, NREAN times; for NREAN = -1 until the excess is
+   !! rounding.
    subroutine relieve(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -140,11 +141,13 @@ contains
       is_listed = plan%stages(analysis%stage)%output%level >= output_joint
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
-         ! an element that is pulled has no limit: its excess falls in every re-analysis and never ends
-         if (total <= no_excess*sum([(friction_limit(model%joints%list(model%joints%element(i)%joint)%law, &
-            analysis%states(i)%normal%pressure)*model%joints%element(i)%area, i = 1, size(relieved))])) return
+         if (total <= 0.0_wp) return
          relieved = any(abs(excess) > 0.0_wp, dim=1) .and. (passes < 0 .or. reanalysis <= passes)
-         if (.not. any(relieved)) return
+         ! an element in tension has the limit zero: each re-analysis reduces its excess, but never to zero
+         if (sum(norm2(excess, dim=1), mask=relieved) <= &
+             no_excess*sum([(model%joints%element(i)%area*friction_limit(model%joints%list(model%joints%element(i)%joint)%law, &
+                                                                         analysis%states(i)%normal%pressure), &
+                             i = 1, size(relieved))])) return
          ! the listing has the first re-analyses, and the last one in place of those between
          if (is_listed) analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
          relief = 0.0_wp

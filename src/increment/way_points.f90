@@ -18,45 +18,45 @@ module way_points
    public :: approach ! for runs beside another one
 
    integer, parameter  :: most_corrections = 8
-   real(wp), parameter :: no_doubt = 0.01_wp  ! of PATHTOL: corrections end
-   real(wp), parameter :: at_the_end = 0.1_wp ! of the pressures on the way: what remains of their error at its end, as measured
+   real(wp), parameter :: negligible = 0.01_wp ! of PATHTOL: uncertainty below which corrections end
+   real(wp), parameter :: at_the_end = 0.1_wp  ! of the error of pressures on the way: what counts of it at its end
 
 contains
 
-   !> The equilibrium ALONG the way with LEFT of the increment to go, to which the states BEFORE lead: its displacements from U, and its
-   !! states. Where corrections leave more than MOST_DOUBT, it is reached as the end of a part is.
-   subroutine find_equilibrium(model, system, left, u, before, most_doubt, analysis, attempt, along, doubt)
+   !> The equilibrium ALONG the way with LEFT of the increment to go, to which the states BEFORE lead: its displacements from U, and
+   !! its states. Where corrections leave a greater UNCERTAINTY than is ALLOWED, it is reached as the end of a part is.
+   subroutine find_equilibrium(model, system, left, u, before, allowed, analysis, attempt, along, uncertainty)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration
       real(wp), intent(in)                  :: left     !! of the load [-], 0 to 1
       real(wp), allocatable, intent(inout)  :: u(:, :)  !! (dimension, retained) [length]
       type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
-      real(wp), intent(in)                  :: most_doubt !! [-]
+      real(wp), intent(in)                  :: allowed  !! uncertainty [-]
       type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations made
       type(attempt_type), intent(inout)     :: attempt  !! likewise
       type(element_state), allocatable, intent(out)   :: along(:)
-      real(wp), intent(out)                 :: doubt    !! about its states, of the largest pressure [-]; 0: found
+      real(wp), intent(out)                 :: uncertainty !! of its pressures, of the largest one [-]; 0: found
       type(trial_type) :: trial
       type(analysis_type), allocatable :: there
       type(attempt_type), allocatable  :: own
       real(wp) :: enough
 
       call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, &
-                    no_doubt*analysis%path_tolerance, analysis, attempt, trial, enough)
-      doubt = 0.0_wp
-      if (trial%size > enough) doubt = doubt_of(model, system, trial, analysis%held)
-      if (doubt > most_doubt .and. attempt%iteration > 0) then
+                    negligible*analysis%path_tolerance, analysis, attempt, trial, enough)
+      uncertainty = 0.0_wp
+      if (trial%size > enough) uncertainty = uncertainty_of(model, system, trial, analysis%held)
+      if (uncertainty > allowed .and. attempt%iteration > 0) then
          allocate (there, source=analysis)
          there%states = before
-         there%tolerance = max(enough, most_doubt/doubt*trial%size)
+         there%tolerance = max(enough, allowed/uncertainty*trial%size)
          allocate (own, source=attempt)
          own%growth = 0.0_wp
          call try_part(model, system, there, left, own, trial%u)
-         call move_alloc(analysis%record%kind, there%record%kind) ! of the committed states
-         analysis%record = there%record
+         call move_alloc(there%record%iterations, analysis%record%iterations)
+         analysis%record%n_iterations = there%record%n_iterations
          attempt%coupled = own%coupled ! as the last factor is
          if (own%converged) then
-            doubt = min(doubt, most_doubt)
+            uncertainty = min(uncertainty, allowed)
             call move_alloc(there%u, u)
             call move_alloc(there%states, along)
             return
@@ -66,9 +66,10 @@ contains
       call move_alloc(trial%states, along)
    end subroutine find_equilibrium
 
-   !> What the residual of TRIAL may change at the end of the way: a share of the pressures that balance it at the nodes of a joint, root
-   !! mean square over the joint, the largest of all joints, of the largest pressure [-].
-   pure real(wp) function doubt_of(model, system, trial, held) result(doubt)
+   !> The error of pressure that the residual of TRIAL leaves at the end of the way, of the largest pressure [-]: a share of the
+   !! residual at the nodes of a joint per nodal area, root mean square over the joint, the largest of all joints. Huge where nothing
+   !! is pressed.
+   pure real(wp) function uncertainty_of(model, system, trial, held) result(uncertainty)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(trial_type), intent(in)       :: trial
@@ -77,32 +78,33 @@ contains
       real(wp) :: p
       integer  :: i, j
 
-      doubt = 0.0_wp
+      uncertainty = huge(1.0_wp)
       p = max(maxval(trial%states%normal%p_a), maxval(trial%states%normal%pressure))
       if (.not. p > 0.0_wp) return
+      uncertainty = 0.0_wp
       do j = 1, size(model%joints%list)
          associate (joint => model%joints%list(j))
             on = .false.
             do i = joint%first, joint%last
                on(system%interface(i)%node) = .true.
             end do
-            doubt = max(doubt, sqrt((joint%last - joint%first + 1)* &
+            uncertainty = max(uncertainty, sqrt((joint%last - joint%first + 1)* &
                                     sum(trial%residual**2, mask=spread(on, 1, size(held, 1)) .and. .not. held))/joint%area)
          end associate
       end do
-      doubt = at_the_end*doubt/p
-   end function doubt_of
+      uncertainty = at_the_end*uncertainty/p
+   end function uncertainty_of
 
    !> The TRIAL near equilibrium under the LOAD, to which the states BEFORE lead: from the displacements U by a few corrections with
-   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in the
-   !! residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
+   !! the factor of the last iteration. The factor is that of the end of the increment; what the corrections so far have changed in
+   !! the residual replaces it where it errs. Source: Anderson, J. ACM 12 (1965) 547-560, in the form of Walker, Ni, SIAM J. Numer.
    !! Anal. 49 (2011) 1715-1735, with the factor as preconditioner.
-   subroutine approach(model, system, load, u, before, least_doubt, analysis, attempt, trial, enough)
+   subroutine approach(model, system, load, u, before, least, analysis, attempt, trial, enough)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: load(:, :), u(:, :)
       type(element_state), allocatable, intent(inout) :: before(:) !! returned as they were
-      real(wp), intent(in)                  :: least_doubt         !! below which the corrections end too [-]
+      real(wp), intent(in)                  :: least               !! uncertainty below which the corrections end too [-]
       type(analysis_type), intent(inout)    :: analysis            !! likewise
       type(attempt_type), intent(inout)     :: attempt             !! likewise
       type(trial_type), intent(out)         :: trial
@@ -123,7 +125,7 @@ contains
       first = 1
       do i = 1, most_corrections
          if (trial%size <= enough .or. attempt%iteration == 0) exit
-         if (doubt_of(model, system, trial, analysis%held) <= least_doubt) exit
+         if (uncertainty_of(model, system, trial, analysis%held) < least) exit
          left = merge(0.0_wp, last%residual, analysis%held)
          steps(:, :, i) = 0.0_wp
          do k = first, i - 1

@@ -30,7 +30,7 @@ module range_watch
    public :: start_watch, watch_drops, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
-   real(wp), parameter :: unborne = 0.1_wp ! of these: a larger remainder is a load that the joints do not bear, said on the screen too
+   real(wp), parameter :: far_beyond = 0.1_wp ! of the load, or of the limits: a larger remainder is said on the screen too
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! bounds of a shear law
 
@@ -40,7 +40,7 @@ module range_watch
       type(farthest_type) :: farthest
       character(:), allocatable :: poor_condition !! last warning of the condition for the screen, '': none
       character(:), allocatable :: divided    !! message about the last divided increment, '': none
-      character(:), allocatable :: unborne    !! message about the last stage whose load is not borne, '': it is
+      character(:), allocatable :: overloaded !! message about the last stage whose load the joints do not bear, '': none
       logical :: tells_drops = .false.        !! said that shear stresses without friction have dropped to zero
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) stage in which an element was last found beyond a bound
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
@@ -65,7 +65,7 @@ contains
       allocate (watch%lines(0))
       watch%poor_condition = ''
       watch%divided = ''
-      watch%unborne = ''
+      watch%overloaded = ''
    end subroutine start_watch
 
    !> Warn of the increment just completed: of the condition of the stiffness, the poorest so far, of which only powers of ten are
@@ -177,7 +177,7 @@ contains
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*page%largest_force) call warn(watch, head//real_text(unbalanced)// &
          ' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: SEE CARRY = YES, METHOD = NEWTON')
-      if (unbalanced > unborne*page%largest_force) watch%unborne = page%place//': '//real_text(unbalanced)// &
+      if (unbalanced > far_beyond*page%largest_force) watch%overloaded = page%place//': '//real_text(unbalanced)// &
          ' of force remain unbalanced by removed elements; METHOD = NEWTON tells whether there is equilibrium'
       if (.not. analysis%record%is_settled) call warn(watch, head//'THE SECANTS HAVE NOT CONVERGED IN '// &
          integer_text(analysis%record%n_iterations)//' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
@@ -191,8 +191,9 @@ contains
       end do
       if (excess > much*limit .and. excess > 0.0_wp) &
          call warn(watch, head//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
-      if (excess > unborne*limit .and. excess > 0.0_wp) watch%unborne = page%place//': friction limits are exceeded by '// &
-         real_text(excess)//' in all; METHOD = NEWTON tells whether there is equilibrium'
+      if (excess > far_beyond*limit .and. excess > much*page%largest_force) watch%overloaded = &
+         page%place//': friction limits are exceeded by '//real_text(excess)// &
+         ' in all; METHOD = NEWTON tells whether there is equilibrium'
    end subroutine watch_stage
 
    !> The warning for a model whose bodies are of linear tetrahedra only; otherwise empty.
@@ -374,7 +375,7 @@ contains
       call stream%item('n_warnings', watch%n_warnings)
       call stream%text('poor_condition', watch%poor_condition)
       call stream%text('divided', watch%divided)
-      call stream%text('unborne', watch%unborne)
+      call stream%text('overloaded', watch%overloaded)
       call stream%item('tells_drops', watch%tells_drops)
       call stream%item('stage', watch%stage)
       call stream%item('soft_line', watch%soft_line)

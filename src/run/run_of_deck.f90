@@ -202,7 +202,7 @@ contains
             call tell(run, watch%poor_condition)
             call tell(run, stress_words(run%results%counts%digest%strained))
             call tell(run, watch%divided)
-            call tell(run, watch%unborne)
+            call tell(run, watch%overloaded)
             call tell(run, distance_words(watch%farthest))
          end associate
          call tell(run, tetra_words(model))

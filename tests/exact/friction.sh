@@ -149,7 +149,7 @@ run spring_passes && {
       END { if (n != 9 || dots != 1 || last < 20) print n " rows, " dots " lines of dots, last pass " last; print "checked " n }' "$work/passes"
 }
 
-# NREAN -1: a foot that is pulled has no limit, and its excess falls by a share in every re-analysis. The other foot bears within its own.
+# NREAN -1: a foot in tension has the limit zero; each re-analysis reduces its excess, but never to zero. The other foot bears.
 cards pulled_foot <<'END'
 METHOD = STEP;MODEL = PLANE;SUBCASE 1;LOAD = 1;SUBCASE 2;LOAD = 2;BEGIN BULK
 GRID,900,,50.,30.;GRID,1,,0.,0.;GRID,2,,100.,0.;RBE2,90,900,12,1,2;CELAS2,50,3.+4,900,1;CELAS2,51,1.+8,900,6

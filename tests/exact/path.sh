@@ -86,8 +86,7 @@ run let_go && run let_go.1 && run let_go.400 && {
    says 'let_go in one increment, farther away: it is warned of' "$work/let_go.1.out" 'WARNING: .* ERROR OF PATH .* OF THE LARGEST LAMBDA'
 }
 
-# Elements pressed more early in a stage and then let go, and parts that begin in equilibrium: their ways are measured too. What is told of
-# the feet is above the limit of a warning; 400 increments tell of the same answer that it is away by more than that.
+# Elements pressed more early in a stage and then let go, and parts that begin in equilibrium: their ways are measured too.
 for name in heated_blocks moved_wall lifted_feet; do
    cp tests/exact/$name.bdf "$work"
    sed 's/^SUBCASE.*/&\nINCR = 777/; s/^ENDDATA/JINCR,777,400,ARITH,.0025\nENDDATA/' tests/exact/$name.bdf > "$work/$name.400.bdf"
