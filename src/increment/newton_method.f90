@@ -212,7 +212,7 @@ contains
       type(path_start_type) :: start
       type(path_error_type) :: error
       real(wp), allocatable :: half(:, :), u_start(:, :)
-      real(wp) :: growth
+      real(wp) :: growth, uncertainty
       integer  :: before_open
 
       allocate (u_start, source=analysis%u)
@@ -235,8 +235,9 @@ contains
          end if
          if (.not. attempt%converged) call reach(model, analysis, system, attempt, [0.0_wp, 1.0_wp])
          if (measures .and. attempt%converged) then
+            uncertainty = 0.0_wp
             call measure_path(model, system, start, [0.0_wp, 1.0_wp], grading(model, start, analysis), analysis, attempt, way, &
-                              error, half)
+                              uncertainty, error, half)
             analysis%record%path_error = error
          end if
       end if

@@ -31,7 +31,7 @@ module path_error
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
    real(wp), parameter :: at_quarter = 0.25_wp       ! of the way
-   real(wp), parameter :: certain = 0.25_wp          ! of PATHTOL: uncertainty of an equilibrium at a quarter that is known
+   real(wp), parameter :: certain = 0.25_wp          ! of the limit: uncertainty of an equilibrium at a quarter that is known
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -112,7 +112,7 @@ contains
 
    !> Follow the WAY from the start of the increment along the committed ATTEMPT at the part between ENDS of it, graded from E, from
    !! START, whose displacements HALF way are found. ERROR is that of the committed states from the end of the WAY.
-   subroutine measure_path(model, system, start, ends, e, analysis, attempt, way, error, half)
+   subroutine measure_path(model, system, start, ends, e, analysis, attempt, way, carried, error, half)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system   !! with the factor of the last iteration; returned with that of the last one
       type(path_start_type), intent(inout)  :: start    !! returned as it was
@@ -121,6 +121,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis !! returned as it was, but for the iterations recorded
       type(attempt_type), intent(inout)     :: attempt  !! likewise, but for COUPLED and ITERATION
       type(element_state), allocatable, intent(inout) :: way(:) !! (interface elements)
+      real(wp), intent(inout)               :: carried    !! uncertainty of the way before the part, then of that behind it [-]
       type(path_error_type), intent(out)    :: error
       real(wp), allocatable, intent(out)    :: half(:, :) !! (dimension, retained) [length]
       type(coupled_tally) :: tally
@@ -137,6 +138,7 @@ contains
       allocate (before, source=way)
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
+      uncertainty = 0.0_wp
       if (size(way) == 0) return
       ! an attempt that begins in equilibrium makes no factor; that of earlier iterations of the increment serves
       if (analysis%record%n_iterations > 0) attempt%iteration = max(1, attempt%iteration)
@@ -164,21 +166,21 @@ contains
          if (error_size(error) > limit .or. attempt%iteration == 0) exit
          if (analysis%record%follows_path .and. .not. &
              is_within(error, nint(1.0_wp/(ends(2) - ends(1))), e, analysis%path_tolerance)) exit
-         if (error_size(error) + sum(uncertainty) > limit) then
-            if (iterates) error%unseen = .true.
+         if (error_size(error) + carried + sum(uncertainty) > limit) then
             if (iterates) exit
             iterates = .true.
-            allowed = 0.5_wp*(limit - error_size(error))
+            allowed = 0.5_wp*max(0.0_wp, limit - carried - error_size(error))
          else if (.not. allocated(early)) then
             share = share_of(ends(1) + at_quarter*(ends(2) - ends(1)), e)
             early = start%u + (share - shares(1))/(shares(2) - shares(1))*(half - start%u)
             call find_equilibrium(model, system, attempt%left + shares(3) - share, early, start%states, huge(1.0_wp), &
                                   analysis, attempt, along, of_early)
-            if (of_early > certain*analysis%path_tolerance) exit ! not known: the error is that of the way over HALF alone
+            if (of_early > certain*limit) exit ! not known: the error is that of the way over HALF alone
          else
             exit
          end if
       end do
+      carried = carried + sum(uncertainty)
       ! iterations may have made a factor of their own, to which the earlier directions do not belong; the cost of all steps counts
       if (system%coupled%n_factors == tally%n_factors) then
          tally%extra = system%coupled%extra

@@ -29,7 +29,7 @@ contains
       type(known_type), allocatable :: known(:)
       type(path_start_type) :: first, last
       type(path_error_type) :: error, change
-      real(wp) :: e, q, size_before
+      real(wp) :: e, q, size_before, uncertainty
       integer  :: n
       logical  :: falls, is_known, is_whole
 
@@ -42,7 +42,7 @@ contains
       is_whole = .true.
       do
          analysis%record%is_whole = .true.
-         call reach_in_parts(model, analysis, system, attempt, e, known)
+         call reach_in_parts(model, analysis, system, attempt, e, known, uncertainty)
          if (.not. attempt%converged) exit
          if (n > 0) then
             change = change_since(model, last, analysis)
@@ -61,7 +61,8 @@ contains
          n = size(known)
          is_whole = analysis%record%is_whole
          error = analysis%record%path_error
-         if (is_within(error, n, e, analysis%path_tolerance) .or. .not. falls .or. 2*n > most_parts) exit
+         if ((is_within(error, n, e, analysis%path_tolerance) .and. uncertainty <= analysis%path_tolerance) .or. &
+             .not. falls .or. 2*n > most_parts) exit
          call note_start(analysis, last)
          call go_to_start(first, analysis)
          call halve_parts(known)
@@ -75,12 +76,13 @@ contains
    end subroutine follow_path
 
    !> Reach the end of the increment in parts, as many as KNOWN has, with the error of path there.
-   subroutine reach_in_parts(model, analysis, system, attempt, e, known)
+   subroutine reach_in_parts(model, analysis, system, attempt, e, known, uncertainty)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(inout)    :: analysis
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(inout)               :: e        !! of grading; one part decides on it
+      real(wp), intent(out)                 :: uncertainty !! of the way [-]
       type(known_type), intent(inout)       :: known(:) !! of the last division; becomes that of this one
       type(element_state), allocatable :: way(:)
       type(path_start_type) :: start
@@ -90,6 +92,7 @@ contains
 
       allocate (way, source=analysis%states)
       n = size(known)
+      uncertainty = 0.0_wp
       do k = 1, n
          ends = [real(k - 1, wp), real(k, wp)]/real(n, wp)
          analysis%record%n_parts = k - 1
@@ -102,7 +105,7 @@ contains
          if (.not. attempt%converged) return
          known(k)%u = analysis%u
          if (n == 1) e = grading(model, start, analysis)
-         call measure_path(model, system, start, ends, e, analysis, attempt, way, error, known(k)%half)
+         call measure_path(model, system, start, ends, e, analysis, attempt, way, uncertainty, error, known(k)%half)
          analysis%record%path_error = error
       end do
    end subroutine reach_in_parts

@@ -1,7 +1,7 @@
 !> Equilibria on the way between two states of METHOD = NEWTON, near known displacements: by corrections with the factor of the last
 !! iteration, and by iterations of their own where these fail.
 module way_points
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, force_noise
    use coupled_equations, only: solve_coupled_again
    use equation_solver, only: failure_type
    use equations, only: equation_system, solve_by_last_factor
@@ -44,7 +44,8 @@ contains
       call approach(model, system, analysis%now%condensed_load - left*analysis%change, u, before, &
                     negligible*analysis%path_tolerance, analysis, attempt, trial, enough)
       uncertainty = 0.0_wp
-      if (trial%size > enough) uncertainty = uncertainty_of(model, system, trial, analysis%held)
+      if (trial%size > max(enough, force_noise(system, trial%u))) uncertainty = uncertainty_of(model, system, trial, analysis%held)
+      if (.not. uncertainty < huge(1.0_wp)) uncertainty = 0.0_wp ! nothing is pressed, and has a way
       if (uncertainty > allowed .and. attempt%iteration > 0) then
          allocate (there, source=analysis)
          there%states = before
