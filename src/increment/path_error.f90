@@ -31,7 +31,7 @@ module path_error
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
    real(wp), parameter :: at_quarter = 0.25_wp       ! of the way
-   real(wp), parameter :: certain = 0.25_wp          ! of the limit: uncertainty of an equilibrium at a quarter that is known
+   real(wp), parameter :: certain = 0.01_wp          ! of the limit: uncertainty of an equilibrium at a quarter that is known
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
