@@ -30,7 +30,7 @@ module increment_parts
    ! where given limits of friction do not bear a part
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: just_below = 0.999_wp   ! of the limit load: the last state, so that the answer shows the limit load to three digits
-   real(wp), parameter :: equal_shares = 0.03_wp  ! of two parts, that are borne: where they differ more nothing is confirmed
+   real(wp), parameter :: one_estimate = 0.03_wp  ! largest difference of the shares that are borne of two parts: a larger one confirms nothing
    integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
    integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
    integer, parameter  :: least_to_it = 8         ! iterations that the last state needs; kept for it where nothing is borne
@@ -120,7 +120,7 @@ contains
             if (search%limit > 0.0_wp .and. .not. agrees) estimate = min(estimate, ends(1) + search%limit)
             if (.not. estimate > done + least_share) estimate = done + 0.5_wp*part ! nothing tells it
             attempt%is_unsure = (is_spent .and. .not. is_confirmed) .or. &
-                                (alike .and. abs(attempt%bearable - search%largest%bearable) > equal_shares)
+                                (alike .and. abs(attempt%bearable - search%largest%bearable) > one_estimate)
             attempt%until = at_most
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit

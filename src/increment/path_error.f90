@@ -31,7 +31,7 @@ module path_error
    real(wp), parameter :: from_nothing = 0.01_wp     ! share of the last pressure at the start of an element: parts are graded below it
    real(wp), parameter :: by_few = 0.1_wp            ! share of the shear that such elements bear: below it parts are equal
    real(wp), parameter :: at_quarter = 0.25_wp       ! of the way
-   real(wp), parameter :: certain = 0.01_wp          ! of the limit: uncertainty of an equilibrium at a quarter that is known
+   real(wp), parameter :: certain = 0.01_wp          ! of the limit: uncertainty of equilibria that are known
    integer, parameter  :: grade = 5                  ! power of the load along graded parts
    real(wp), parameter, public :: none = 1.0_wp      ! as grading: equal parts
 
@@ -138,7 +138,6 @@ contains
       allocate (before, source=way)
       shares = share_of([ends(1), 0.5_wp*sum(ends), ends(2)], e)
       half = start%u + (shares(2) - shares(1))/(shares(3) - shares(1))*(analysis%u - start%u)
-      uncertainty = 0.0_wp
       if (size(way) == 0) return
       ! an attempt that begins in equilibrium makes no factor; that of earlier iterations of the increment serves
       if (analysis%record%n_iterations > 0) attempt%iteration = max(1, attempt%iteration)
@@ -170,7 +169,7 @@ contains
             if (iterates) exit
             iterates = .true.
             allowed = 0.5_wp*max(0.0_wp, limit - carried - error_size(error))
-         else if (.not. allocated(early)) then
+         else if (.not. allocated(early) .and. sum(uncertainty) <= certain*limit) then
             share = share_of(ends(1) + at_quarter*(ends(2) - ends(1)), e)
             early = start%u + (share - shares(1))/(shares(2) - shares(1))*(half - start%u)
             call find_equilibrium(model, system, attempt%left + shares(3) - share, early, start%states, huge(1.0_wp), &

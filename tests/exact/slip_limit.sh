@@ -34,7 +34,8 @@ run limit_pulled 3
 says 'shear without friction: the message' "$work/limit_pulled.log" \
    'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
 
-# A block of 800 N on MU 0.2, pushed by 200: 40 are missing along the slope at any angle; the message gives the force, not a component. A block pressed by 1,000, then pushed: what is missing is the push less 100.
+# A block of 800 N on MU 0.2, pushed by 200: 40 are missing along the slope at any angle; the message gives the force, not a component.
+# A block pressed by 1,000 on MU 0.1, then pushed: the push less 100 is missing.
 for angle in 0 15 45; do
    awk -v angle=$angle 'function at(x, y) { return sprintf("%.12f,%.12f", c*x - s*y, s*x + c*y) }
       BEGIN { a = angle*atan2(0, -1)/180; c = cos(a); s = sin(a); print "METHOD = NEWTON\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK"
