@@ -1,7 +1,8 @@
 !> The parts of an increment of METHOD = NEWTON, and the ways of an attempt at a part: straight laws, then given limits of friction.
 !! A part that does not converge is halved. Where given limits do not bear it, the share that they bear says where its limit load is:
 !! the increment goes on to a state below it, and from there to one above it by all ways. Where this fails too and gives the same
-!! limit load, there is no equilibrium. Where two estimates do not agree in 60 iterations, the increment ends without a confirmed one.
+!! limit load, there is no equilibrium. Where two estimates do not agree in 60 iterations, what slips creeps on, and
+!! if it finds no hold, the increment ends without a confirmed limit load.
 module increment_parts
    use analysis_state, only: analysis_type
    use equation_solver, only: failure_type
@@ -11,8 +12,8 @@ module increment_parts
                          leaves_as_expected, limit_search, missing_by_parts, near_limit
    use model_data, only: model_type
    use newton_iterations, only: iterate
-   use newton_trial, only: attempt_type, every, extrapolated, from_best, holding, most_iterations, no_bounds, others, sticking, &
-                           straight, verdict_type
+   use newton_trial, only: attempt_type, creeping, every, extrapolated, from_best, holding, most_iterations, no_bounds, others, &
+                           sticking, straight, verdict_type
    use normal_stiffness, only: branch_open
    use tolerances, only: least_share
    implicit none
@@ -25,6 +26,8 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
+   integer, parameter  :: most_creeping = 20      ! iterations against a resistance of friction
+   real(wp), parameter :: first_creep = 1.0_wp    ! this resistance at first, of the elastic stiffness
    integer, parameter  :: clear = 2               ! steps along which a body moves on
    real(wp), parameter :: almost = 0.7_wp         ! of the part: given limits that bear so much are near to the limit load
    ! where given limits of friction do not bear a part
@@ -122,6 +125,8 @@ contains
             attempt%is_unsure = (is_spent .and. .not. is_confirmed) .or. &
                                 (alike .and. abs(attempt%bearable - search%largest%bearable) > one_estimate)
             attempt%until = at_most
+            if (attempt%is_unsure) call creep(model, system, analysis, attempt, ends(2), done)
+            if (.not. done < ends(2)) exit
             call approach_limit(model, system, analysis, attempt, just_below*estimate, done)
             exit
          else if ((moves .or. attempt%leaves > 0) .and. .not. is_last) then
@@ -131,6 +136,7 @@ contains
             search%only = 0
             attempt%is_limited = search%n_moving > 0
          else
+            call creep(model, system, analysis, attempt, ends(2), done)
             exit
          end if
       end do
@@ -173,6 +179,32 @@ contains
       done = share
    end subroutine approach_limit
 
+   !> Where the limit load is not confirmed, or no part is small enough: go on from DONE to the END of a part of the increment against
+   !! a resistance of friction that vanishes with the unbalanced forces. A body that slips creeps to the place where it finds hold.
+   subroutine creep(model, system, analysis, attempt, end, done)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(in)                  :: end  !! [-]
+      real(wp), intent(inout)               :: done !! [-]
+      type(attempt_type), allocatable :: last
+      integer :: begun
+
+      begun = analysis%record%n_iterations
+      allocate (last, source=attempt)
+      last%only = creeping
+      last%part = end - done
+      last%until = begun + most_creeping
+      call try_part(model, system, analysis, 1.0_wp - end, last)
+      if (attempt%until < huge(1)) attempt%until = attempt%until + analysis%record%n_iterations - begun
+      if (.not. last%converged) return
+      analysis%record%n_parts = analysis%record%n_parts + 1
+      attempt%converged = .true.
+      attempt%is_unsure = .false.
+      done = end
+   end subroutine creep
+
    !> An ATTEMPT up to the point where LEFT of the increment, or of the interference, remains. Straight laws start from the
    !! extrapolated last increment if this one continues it, then from the committed state, unless the extrapolation never left less
    !! than its first residual in many iterations. If they do not lead quickly to equilibrium, the attempt is repeated with given limits
@@ -214,6 +246,7 @@ contains
       if (is_given_up(analysis)) return
       ways = [extrapolated, straight, from_best, sticking, holding]
       if (follows_refused(attempt)) ways = [sticking, holding, extrapolated, straight, from_best]
+      if (attempt%only == creeping) ways(1) = creeping
       hangs = .false.
       do k = 1, size(ways)
          way = ways(k)
@@ -231,6 +264,7 @@ contains
          attempt%moves = analysis%moves
          attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                               system%number(:, system%retained) == 0)
+         attempt%creep = merge(first_creep, 0.0_wp, way == creeping)
          attempt%with_limits = way >= from_best
          attempt%from_best = way == from_best
          attempt%holds_all = way == holding

@@ -38,6 +38,8 @@ module newton_iterations
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
    real(wp), parameter :: short = 0.1_wp               ! step under given limits [-]: after a shorter one the next straight laws are tangents
+   real(wp), parameter :: much_more = 2.0_wp           ! times the residual: creeping, a step that leaves so much is not taken
+   real(wp), parameter :: least_fall = 0.01_wp         ! of the resistance of creeping, in a step
    real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a body has touched another where the least energy is before it
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
@@ -57,7 +59,9 @@ contains
       real(wp), allocatable :: at_now(:, :), direction(:, :), residual(:, :)
       integer :: at
       logical :: anew, guessed, moves
+      logical :: goes_back ! creeping, the last step is not taken
 
+      goes_back = .false.
       allocate (direction, mold=analysis%u)
       attempt%displacement_scale = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
@@ -90,7 +94,7 @@ contains
             attempt%least = now%size
          end if
          if ((attempt%converged .and. (attempt%iteration > 0 .or. .not. attempt%renews)) .or. attempt%ends) exit
-         anew = attempt%iteration == 0
+         anew = attempt%iteration == 0 .or. goes_back
          ! a short step shows that the straight laws do not follow the energy; the tangents do, unless interference parts bodies
          if (attempt%with_limits) anew = anew .or. is_exact(attempt) .or. (attempt%step < short .and. .not. attempt%seats)
          if (anew) call laws_at(model, system, now, laws)
@@ -106,7 +110,7 @@ contains
          if (attempt%trouble%raised) exit
          moves = attempt%moves
          call advance(model, system, analysis, attempt, now, direction, .false., next)
-         if (.not. (moves .or. attempt%runs .or. attempt%is_limited)) then ! near a limit load this takes longer
+         if (.not. (moves .or. attempt%runs .or. attempt%is_limited .or. attempt%creep > 0.0_wp)) then ! near a limit load this takes longer
             if (attempt%iteration > 0) then
                call eliminate_few(model, system, analysis, attempt, now, at_now, laws, next)
             else if (guessed .and. .not. attempt%with_limits .and. next%size > far_off*now%size) then ! laws: the tangents at NOW
@@ -118,6 +122,8 @@ contains
          call note_iteration(now, next, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
          attempt%iteration = attempt%iteration + 1
+         call change_creep(now, next, attempt, goes_back)
+         if (goes_back) cycle
          if (falls_back(model, system, analysis, attempt, now, next)) cycle
          if (.not. attempt%with_limits .or. allocated(attempt%seen)) &
             call next_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, laws)
@@ -178,6 +184,25 @@ contains
                                analysis%load_tolerance*support_force(model, system, analysis, next%u, attempt%left))
       attempt%load_size = analysis%tolerance/analysis%load_tolerance
    end subroutine advance
+
+   !> The resistance of an ATTEMPT that creeps, after the step from NOW to NEXT: it falls with the residual, so that the last steps are
+   !! those without it. Where a step leads up, it grows, and a step that leaves much more is not taken.
+   !! Source: pseudo-transient continuation, Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523.
+   pure subroutine change_creep(now, next, attempt, goes_back)
+      type(trial_type), intent(in)      :: now, next
+      type(attempt_type), intent(inout) :: attempt   !! its ITERATION includes this step
+      logical, intent(out)              :: goes_back !! from NEXT to NOW
+
+      goes_back = attempt%creep > 0.0_wp .and. attempt%iteration > 1 .and. next%size > much_more*now%size
+      if (.not. attempt%creep > 0.0_wp .or. attempt%iteration == 1) return ! the first step is an elastic one
+      if (goes_back) then
+         attempt%creep = 4.0_wp*attempt%creep
+      else if (next%size > (1.0_wp + 2.0_wp*standstill)*now%size) then
+         attempt%creep = 2.0_wp*attempt%creep
+      else
+         attempt%creep = max(0.5_wp*next%size/now%size, least_fall)*attempt%creep
+      end if
+   end subroutine change_creep
 
    !> Correct NEXT with the tangents of the step from NOW to NEXT while each correction leaves less than WORTH_WHILE of the
    !! residual. A correction takes a solution but no factorisation. The error of the tangents is that of the step, so each
@@ -273,6 +298,9 @@ contains
          attempt%ends = n == attempt%most
          if (attempt%with_limits) then
             call judge_limits(model, system, analysis, now, attempt)
+         else if (attempt%creep > 0.0_wp) then
+            if (n >= patience) attempt%ends = attempt%ends .or. &
+               maxval(attempt%sizes(n - patience + 1:n)) < (1.0_wp + standstill)*minval(attempt%sizes(n - patience + 1:n)) ! it creeps on
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
                            is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short

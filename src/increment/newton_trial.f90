@@ -21,7 +21,7 @@ module newton_trial
    real(wp), parameter :: enough = 0.8_wp             ! line search: a step with more of the unbalanced work left is searched
    integer, parameter, public :: most_iterations = 60
    real(wp), parameter, public :: no_bounds(2) = [1.0_wp, 0.0_wp] !! of EXPECTED: the first is the larger one
-   integer, parameter, public :: extrapolated = 1, straight = 2, from_best = 3, sticking = 4, holding = 5 !! ways of an attempt
+   integer, parameter, public :: extrapolated = 1, straight = 2, creeping = 3, from_best = 4, sticking = 5, holding = 6 !! ways of an attempt
    integer, parameter, public :: every = -1       !! of these ways, also after one by which a body moves on
    integer, parameter, public :: others = -2      !! all ways but STICKING, by which the part has just not been borne
 
@@ -44,6 +44,7 @@ module newton_trial
       real(wp), allocatable :: move(:, :)         !! likewise, movement of held components still to do [length]
       logical  :: moves = .false.                 !! the next step makes this movement
       real(wp) :: growth = 0.0_wp                 !! ratio to the last increment of the stage, 0: not its continuation
+      real(wp) :: creep = 0.0_wp                  !! part of its elastic stiffness by which friction resists a step, 0: it does not [-]
       logical  :: seats = .false.                 !! interference at rest without load
       real(wp) :: seat_force = 0.0_wp             !! then the reference force: p_av on the pressed elements [force]
       logical  :: with_limits = .false.           !! friction by a sequence of given limits

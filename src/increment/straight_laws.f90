@@ -216,7 +216,8 @@ contains
    !> The DIRECTION that balances the RESIDUAL of the straight LAWS. The factorised matrix has the symmetric part of the tangents.
    !! This part is shifted where an eigenvalue is negative (a slipping element has one where its two shear laws differ), and has a
    !! small stiffness where an element has none. solve_coupled adds the remaining part: what friction gains with the pressure, and
-   !! the antisymmetric part of an element whose stress turns while it slips. A joint that is open at all nodes holds by a share of its
+   !! the antisymmetric part of an element whose stress turns while it slips. An ATTEMPT that creeps resists the movement of elements
+   !! that slip or are open. A joint that is open at all nodes holds by a share of its
    !! elastic shear, which falls with the residual: a body that lies with clearance does not leave while others find their seats.
    !! Source: Levenberg-Marquardt method with a parameter that falls with the residual, Yamashita, Fukushima, Computing Suppl. 15
    !! (2001) 239-249.
@@ -246,6 +247,7 @@ contains
       do i = 1, size(laws)
          associate (tangent => laws(i)%tangent, elastic => laws(i)%elastic, element => model%joints%element(i))
             analysis%k(:, i) = [tangent(1, 1), tangent(2, 2), tangent(3, 3)]
+            if (attempt%creep > 0.0_wp) call resist(attempt%creep*elastic, laws(i))
             matrix(3, 3, i) = max(tangent(3, 3), stand_in_stiffness*elastic(3))
             matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2) + transpose(tangent(:2, :2)))
             least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - &
@@ -275,6 +277,20 @@ contains
          laws(i)%tangent = matrix(:, :, i) + rest(:, :, i)
       end do
    end subroutine find_direction
+
+   !> Add the stiffness K, by which a step is resisted, to an element that slips or is open.
+   pure subroutine resist(k, law)
+      real(wp), intent(in)              :: k(3) !! along both axes of shear and the normal [force/length]
+      type(straight_law), intent(inout) :: law
+      integer :: d, n
+
+      n = 0
+      if (law%state%slips) n = 2
+      if (law%state%normal%branch == branch_open) n = 3
+      do d = 1, n
+         law%tangent(d, d) = law%tangent(d, d) + k(d)
+      end do
+   end subroutine resist
 
    !> Which joints are loose: all their elements are open or slip in STATES.
    pure function loose_joints(model, states) result(loose)

@@ -57,15 +57,20 @@ END
    near "an elastic block pressed by 1,000, pushed by $push: missing" "$(missing elastic_block)" $push-100 1e-3
 done
 
-# Bodies on leaning feet with gaps: an equilibrium under each of these loads, which straight laws do not find.
-for name in leaning_bodies leaning_pair; do
-   for load in 1.0 1.005 1.01; do
-      sed -E "s/^(FORCE|MOMENT),([^,]*),([^,]*),,1.0,/\\1,\\2,\\3,,$load,/" tests/exact/$name.bdf > "$work/$name.bdf"
+# Bodies on leaning feet: an equilibrium under each of these loads, which straight laws do not find, and of the last one given limits
+# neither.
+for name in leaning_bodies leaning_pair leaning_stack; do
+   for load in 0.95 1.0 1.005 1.01; do
+      sed -E "s/^(FORCE|MOMENT),([^,]*),([^,]*),,1\\.0?,/\\1,\\2,\\3,,$load,/" tests/exact/$name.bdf > "$work/$name.bdf"
       run $name && ask "$name, load times $load: friction is within the largest limit" $name all 'abs(tau_x) <= 0.683*pressure + 1e-9' \
          all '(branch = "OPEN") = (pressure = 0)'
    done
 done
 
+# The force on a block between two walls is a quarter of what friction bears, and is turned round: nothing slips.
+cp tests/exact/turned_block.bdf "$work"
+run turned_block && ask 'a block between two walls, its force turned round' turned_block all 'abs(tau_x) < 0.1*pressure' \
+   rows 'stage = 3' all 'abs(tau_x) > 0'
 # STEP can exceed the limits of friction: the screen says so for a push of 500 against a limit of 200
 limit limit_pushed 500. 0.
 sed -i 's/NEWTON/STEP/; s/^PJOINT,1,1,1,,0.2/&,,1.0/' "$work/limit_pushed.bdf"
@@ -139,7 +144,7 @@ while read -r mu slope stiffness force; do
    bears=$(awk "BEGIN { print $bears*($mu - $slope)/(1 + $mu*$slope) }")
    holds "a taper of $slope with MU $mu pulled by $force: missing" "$(missing taper) = $force - $bears within 0.5*$bears"
    holds "... its last state" "0.4*$bears < $(last_state taper)*$force and $(last_state taper)*$force < 1.05*$bears"
-   holds "... iterations" "0 < $(iterations taper 2) and $(iterations taper 2) <= 60"
+   holds "... iterations" "0 < $(iterations taper 2) and $(iterations taper 2) <= 60 + 20"
    says '... what the message leaves open' "$work/taper.log" '; the limit load is not confirmed: more increments show where it is;'
 done << 'END'
 0.15 0.025 2.+5 20000
