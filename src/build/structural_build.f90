@@ -13,6 +13,7 @@ module structural_build
    use model_data, only: freedoms_type, mesh_type, rotation_type
    use node_build, only: append_unknowns
    use rod_torsion, only: add_twisted, leave_out_untwisted
+   use tapered_beam, only: beam_station
    use text_tools, only: integer_text
    use unknowns, only: node_axes
    implicit none
@@ -265,6 +266,10 @@ contains
                ' is a bolt; expected a section constant along it')
             if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
                'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
+            ! I12 couples the planes, shear acts in each alone: their stiffness together is that of the integration along the beam
+            if (abs(law%inertia(3)) > 0.0_wp .and. any(law%shear > 0.0_wp) .and. law%area*law%g > 0.0_wp .and. &
+                .not. allocated(law%stations)) law%stations = [beam_station(law%beam_section, 0.0_wp, law%extra_mass), &
+                                                               beam_station(law%beam_section, 1.0_wp, law%extra_mass)]
             if (.not. beam_length(law, x)**3 > 0.0_wp) then ! the bending stiffness divides by it
                call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
                cycle

@@ -210,6 +210,7 @@ contains
             wave%law = waves(ours(i))%law
             allocate (wave%force(3, mesh%n_nodes), source=0.0_wp)
             do k = 1, load%n
+               if (load%node(k) == 0) cycle ! reported already
                wave%force(:, load%node(k)) = wave%force(:, load%node(k)) + load%force(:, k)
             end do
             if (allocated(load%moved) .and. wave%law%card%motion > 0) wave%moved = load%moved

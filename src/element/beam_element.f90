@@ -119,7 +119,8 @@ contains
       m(5, [3, 5, 9, 11]) = r*[-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
    end function movement_at
 
-   !> [k] between the end values before releases. I12 couples bending in the two planes; the shear flexibility is that for I12 = 0.
+   !> [k] between the end values before releases. I12 couples bending in the two planes, here without shear: a beam that has both has
+   !! STATIONS.
    pure function end_stiffness(law, length) result(k)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: length
@@ -131,6 +132,8 @@ contains
          k(7:, :6) = -matmul(k(7:, 7:), transpose(carried(length)))
          k(:6, 7:) = transpose(k(7:, :6))
          k(:6, :6) = -matmul(carried(length), k(7:, :6))
+         if (law%is_cut) k([1, 7], :) = 0.0_wp ! nothing else is coupled along the beam
+         if (law%is_cut) k(:, [1, 7]) = 0.0_wp
          return
       end if
       k = 0.0_wp
@@ -145,7 +148,7 @@ contains
          k(at(:, plane), at(:, plane)) = bend
       end do
       if (.not. abs(law%inertia(3)) > 0.0_wp) return
-      bend = law%e*law%inertia(3)*of_bending(sqrt((1.0_wp + phi(1))*(1.0_wp + phi(2))) - 1.0_wp)*spread(sign_of, 1, 4)
+      bend = law%e*law%inertia(3)*of_bending(0.0_wp)*spread(sign_of, 1, 4)
       k(at(:, 1), at(:, 2)) = bend
       k(at(:, 2), at(:, 1)) = transpose(bend)
 

@@ -25,7 +25,7 @@ module mode_span
    implicit none
    private
 
-   public :: find_modes_again, span_modes, find_spanned
+   public :: find_modes_again, span_modes, find_spanned, spanned
 
    !> The modes of a stage, and what the modes of all stages are in it.
    type, public :: stage_modes
@@ -34,9 +34,9 @@ module mode_span
       integer :: n_before = 0                  !! modes below the range
       real(wp), allocatable :: lambda(:)       !! (modes) omega^2 [1/time^2]; not allocated: none
       real(wp), allocatable :: u(:, :)         !! (components of all nodes, modes) of generalised mass 1
-      real(wp), allocatable :: k(:)            !! (3 n) k_sx, k_sy, k_n of the interface elements under oscillation [force/length]
+      real(wp), allocatable :: k(:)            !! (4 n) SPANNED stiffness of the interface elements under oscillation [force/length]
       real(wp), allocatable :: reduced(:, :)   !! (basis, basis) [K]
-      real(wp), allocatable :: moved(:, :)     !! (3 n, basis) [B]
+      real(wp), allocatable :: moved(:, :)     !! (4 n, basis) [B]
       real(wp), allocatable :: place(:, :)     !! (basis, modes) components of the modes of this stage
    end type stage_modes
 
@@ -89,6 +89,7 @@ contains
       type(stage_modes), intent(inout)   :: stages(:)
       real(wp), allocatable :: b(:, :), f(:, :), g(:, :), k(:, :), m(:, :), nu(:), t(:, :), u(:, :), unit(:, :), v(:, :), work(:)
       integer, allocatable  :: of(:)
+      real(wp) :: movement(3)
       integer :: d, i, info, j, n, own, s
 
       d = model%mesh%dimension
@@ -110,7 +111,8 @@ contains
             nu(j) = stages(of(j))%lambda(i)
             u = reshape(v(:, j), shape(u))
             do i = 1, size(model%joints%element)
-               b(3*i - 2:3*i, j) = joint_movement(model%joints%element(i), u)
+               movement = joint_movement(model%joints%element(i), u)
+               b(4*i - 3:4*i, j) = [movement, movement(1) + movement(2)]
             end do
          end do
          do j = 1, n
@@ -144,10 +146,19 @@ contains
       end do
    end subroutine span_modes
 
+   !> The stiffness K of interface elements as four springs each: along x, y, the normal, and x and y together, which have k_sxy.
+   pure function spanned(k) result(springs)
+      real(wp), intent(in) :: k(:, :) !! (4, n) k_sx, k_sy, k_n, k_sxy [force/length]
+      real(wp) :: springs(size(k))
+      integer :: i
+
+      springs = [(k(:3, i) - k(4, i)*[1.0_wp, 1.0_wp, 0.0_wp], k(4, i), i = 1, size(k, 2))]
+   end function spanned
+
    !> LAMBDA, omega^2 of the modes of STAGE where its interface elements have the stiffness K, each mode the one most like it.
    subroutine find_spanned(stage, k, lambda)
       type(stage_modes), intent(in) :: stage
-      real(wp), intent(in)          :: k(:)      !! (3 n) [force/length]
+      real(wp), intent(in)          :: k(:)      !! (4 n) SPANNED [force/length]
       real(wp), intent(out)         :: lambda(:) !! (modes) [1/time^2]
       real(wp), dimension(size(stage%reduced, 1), size(stage%reduced, 1)) :: a, unit
       real(wp) :: mu(size(a, 1)), work(34*size(a, 1))

@@ -14,7 +14,7 @@ module structure_answers
    use mode_rows, only: answer_type, is_of_modes, is_predicted, match_rows, shapes_near, structure_type
    use mode_values, only: evaluate_modes, modes_type
    use modal_response, only: find_response, response_type
-   use mode_span, only: find_modes_again, find_spanned
+   use mode_span, only: find_modes_again, find_spanned, spanned
    use model_data, only: model_type
    use node_coupling, only: displacements, forces_on_unknowns
    use natural_modes, only: find_natural_modes, spectrum_type
@@ -130,13 +130,12 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       logical, intent(in)             :: on_loading
-      real(wp) :: k(3*size(model%joints%element))
+      real(wp) :: k(4*size(model%joints%element))
       integer  :: i
 
-      do i = 1, size(model%joints%element)
-         k(3*i - 2:3*i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
-                                                model%joints%element(i)%area, analysis%states(i), on_loading)
-      end do
+      k = spanned(reshape([(oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
+                                                  model%joints%element(i)%area, analysis%states(i), on_loading), &
+                            i = 1, size(model%joints%element))], [4, size(model%joints%element)]))
    end function stiffness_of
 
    !> The answers of modes, backbone and response to the rows OF_MODES of stage S. LOOSE is the model, without supports where the
@@ -195,7 +194,7 @@ contains
             stage%is_elastic = oscillating%is_elastic
             stage%is_locked = oscillating%is_locked
             stage%n_before = modes%n_before
-            stage%k = reshape(oscillating%k, [size(oscillating%k)])
+            stage%k = spanned(oscillating%k)
             stage%lambda = modes%modes%lambda
             stage%u = reshape([(modes%modes(i)%u/sqrt(modes%modes(i)%mass), i = 1, size(modes%modes))], &
                               [size(loose%freedoms%held), size(modes%modes)])

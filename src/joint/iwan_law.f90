@@ -217,21 +217,22 @@ contains
       loss = sum(4.0_wp*share*law%strength*max(0.0_wp, d - share*law%strength/law%stiffness))
    end function slices_loss
 
-   !> Slopes of the stress along x and y where the movement goes on as it was: a slice at its limit has none along its stress
-   !! [pressure/length].
+   !> Slopes of the stress along x and y, xx, yy and xy, where the movement goes on as it was: a slice at its limit has none along its
+   !! stress [pressure/length].
    pure function loading_slopes(law, state, share) result(slopes)
       type(iwan_type), intent(in)  :: law
       type(iwan_state), intent(in) :: state
       real(wp), intent(in)         :: share
-      real(wp) :: slopes(2), tau(2, size(law%stiffness))
+      real(wp) :: slopes(3), along(2), tau(2, size(law%stiffness))
       integer  :: m
 
       tau = stresses(law, state)
       slopes = 0.0_wp
       do m = 1, size(law%stiffness)
-         slopes = slopes + law%stiffness(m)
-         if (norm2(tau(:, m)) >= (1.0_wp - flag_margin)*share*law%strength(m) .and. norm2(tau(:, m)) > 0.0_wp) &
-            slopes = slopes - law%stiffness(m)*(tau(:, m)/norm2(tau(:, m)))**2
+         slopes(:2) = slopes(:2) + law%stiffness(m)
+         if (norm2(tau(:, m)) < (1.0_wp - flag_margin)*share*law%strength(m) .or. .not. norm2(tau(:, m)) > 0.0_wp) cycle
+         along = tau(:, m)/norm2(tau(:, m))
+         slopes = slopes - law%stiffness(m)*[along**2, product(along)]
       end do
    end function loading_slopes
 

@@ -13,7 +13,7 @@ module joint_laws
    implicit none
    private
 
-   public :: norm_and_shear, stiffness_at_rest, stiffness_matrices, follow_element, force_of
+   public :: norm_and_shear, stiffness_at_rest, stiffness_matrices, force_along, follow_element, force_of
    public :: rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, limit_cuts
    public :: back_stiffness
@@ -88,7 +88,7 @@ contains
       if (is_virgin(area, state%normal)) p = state%normal%p_av
    end subroutine start_shear
 
-   !> The matrices (3, 3, n) of elements with the stiffnesses K(3, n) in their axes.
+   !> The matrices (3, 3, n) of elements with the stiffnesses K in their axes: (3, n), or (4, n) with k_sxy, which couples the shears.
    pure function stiffness_matrices(k) result(matrices)
       real(wp), intent(in)  :: k(:, :)
       real(wp), allocatable :: matrices(:, :, :)
@@ -98,7 +98,19 @@ contains
       do d = 1, 3
          matrices(d, d, :) = k(d, :)
       end do
+      if (size(k, 1) < 4) return
+      matrices(1, 2, :) = k(4, :)
+      matrices(2, 1, :) = k(4, :)
    end function stiffness_matrices
+
+   !> The force of an element with the stiffness K, with k_sxy, under MOVEMENT [force].
+   pure function force_along(k, movement) result(force)
+      real(wp), intent(in) :: k(4)        !! [force/length]
+      real(wp), intent(in) :: movement(3) !! [length]
+      real(wp) :: force(3)
+
+      force = k(:3)*movement + k(4)*[movement(2), movement(1), 0.0_wp]
+   end function force_along
 
    !> The stiffness (k_sx, k_sy, k_n) of an element that has never been pressed [force/length].
    pure function stiffness_at_rest(law, area, p_av) result(k)

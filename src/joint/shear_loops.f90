@@ -184,14 +184,15 @@ contains
       if (meetings%n > 0) d = meetings%x(1)*far
    end function skeleton_end
 
-   !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the
-   !! slope of the unloading cubic where it would begin. ON_LOADING: dp/dlambda a_i and a_i A'(d; p) of the loading curves.
+   !> K = (k_sx, k_sy, k_n, k_sxy) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the
+   !! slope of the unloading cubic where it would begin. ON_LOADING: dp/dlambda a_i and a_i A'(d; p) of the loading curves. The slices
+   !! of JIWAN couple the directions of shear by k_sxy on loading.
    pure function oscillation_stiffness(law, area, state, on_loading) result(k)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area       !! a_i [length^2]
       type(element_state), intent(in) :: state
       logical, intent(in)             :: on_loading
-      real(wp) :: k(3)
+      real(wp) :: k(4)
       integer  :: i
 
       k = 0.0_wp
@@ -200,7 +201,8 @@ contains
          k(3) = law%normal%e_u*area
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
          if (law%iwan%given .and. on_loading) then
-            k(:2) = merge(area*loading_slopes(law%iwan, slices_of(state), limit_share(law%iwan, p)), 0.0_wp, law%shear%given)
+            k([1, 2, 4]) = merge(area*loading_slopes(law%iwan, slices_of(state), limit_share(law%iwan, p)), 0.0_wp, &
+                                 [law%shear%given, all(law%shear%given)])
             return
          end if
          do i = 1, 2

@@ -8,6 +8,7 @@ module enforced_motion
    use eigenpairs, only: all_displacements, on_equations
    use equation_solver, only: equation_system, failure_type
    use interface_operator, only: add_force, joint_movement
+   use joint_laws, only: force_along
    use kinds, only: wp
    use mass_matrix, only: mass_times
    use model_data, only: model_type
@@ -34,7 +35,7 @@ contains
       call add_bar_forces(model, structure%is_elastic, u, f)
       f = -f
       do i = 1, size(model%joints%element)
-         call add_force(model%joints%element(i), -structure%k(:, i)*joint_movement(model%joints%element(i), u), f)
+         call add_force(model%joints%element(i), -force_along(structure%k(:, i), joint_movement(model%joints%element(i), u)), f)
       end do
       f = -f
    end subroutine stiffness_times

@@ -23,6 +23,7 @@ module mode_values
    use element_unknowns, only: displaced_nodes
    use equation_solver, only: equation_system
    use interface_operator, only: add_force, joint_movement
+   use joint_laws, only: force_along
    use kinds, only: wp
    use mass_matrix, only: mass_times, total_mass
    use connected_bodies, only: find_bodies
@@ -373,11 +374,11 @@ contains
          end do
          do i = 1, size(model%joints%element)
             movement = joint_movement(model%joints%element(i), u(:, :, m))
-            associate (k_int => structure%k(:, i))
+            associate (force => force_along(structure%k(:, i), movement))
                j = model%joints%element(i)%joint
-               energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(k_int(:2)*movement(:2)**2)
-               energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*k_int(3)*movement(3)**2
-               call add_force(model%joints%element(i), k_int*movement, f(:, :, m))
+               energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(force(:2)*movement(:2))
+               energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*force(3)*movement(3)
+               call add_force(model%joints%element(i), force, f(:, :, m))
             end associate
          end do
       end do

@@ -21,7 +21,7 @@ module oscillating_structure
    integer, parameter, public :: most_trials = 4  !! of a factorisation beside an eigenvalue
 
    type, public :: oscillating_type
-      real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
+      real(wp), allocatable :: k(:, :)       !! (4, n) k_sx, k_sy, k_n, k_sxy of interface elements [force/length]
       logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
       logical, allocatable  :: is_locked(:)  !! tightened pretension sections of solid bolts
       integer, allocatable  :: held(:, :)    !! (2, n) node and direction of unknowns that are held besides; not allocated: none
@@ -45,7 +45,7 @@ contains
       logical, intent(in), optional       :: is_ordered
       integer :: i
 
-      if (.not. allocated(structure%k)) allocate (structure%k(3, size(model%joints%element)))
+      if (.not. allocated(structure%k)) allocate (structure%k(4, size(model%joints%element)))
       do i = 1, size(model%joints%element)
          structure%k(:, i) = oscillation_stiffness(model%joints%list(model%joints%element(i)%joint)%law, &
             model%joints%element(i)%area, analysis%states(i), on_loading)

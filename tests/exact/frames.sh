@@ -31,6 +31,27 @@ beam_deck FORCE,1,2,,1.0,0.0,0.0,1.0 'MODEL = PLANE'
 run frame_beam 2
 said frame_beam 'a force along z in a plane model: the message names MODEL' 'a plane model lies in x-y (MODEL = SPACE makes it a model of space)$'
 
+# ---- a cantilever with I12 and shear: statics gives moment and shear; the planes are coupled by I12 in bending alone ----
+
+# coupled_deck LOAD
+coupled_deck() {
+   cards coupled_beam <<DECK
+SOL 101;SPC = 1;LOAD = 2;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,4.,0.,0.;CBEAM,1,1,1,2,0.,0.,1.;PBEAM,1,1,2.,1.5,1.2,1.0,.3
+MAT1,1,2.+5,,.25;SPC1,1,123456,1;$1;ENDDATA
+DECK
+}
+bends='1/(2e5*(1.5*1.2 - 1.0^2))'
+coupled_deck FORCE,2,2,,100.,0.,0.,1.
+run coupled_beam && {
+   near 'I12 and shear: along the force' "$(moved coupled_beam 2 3)" "100*(4^3/3*1.2*$bends + 4/(2*8e4))" 3e-6
+   near 'I12 and shear: across it, no shear' "$(moved coupled_beam 2 2)" "100*4^3/3*1.0*$bends" 3e-6
+}
+coupled_deck PLOAD1,2,1,FZ,FR,0.,100.,1.,100.
+run coupled_beam && {
+   near 'I12 and shear: a load along the beam' "$(moved coupled_beam 2 3)" "100*(4^4/8*1.2*$bends + 4^2/2/(2*8e4))" 3e-6
+   near 'I12 and shear: a load along the beam, across it' "$(moved coupled_beam 2 2)" "100*4^4/8*1.0*$bends" 3e-6
+}
+
 # ---- plates in x-y: MID2 makes shells; a strip of nu = 0 bends by P L^3/(3 E I) and P L/(5/6 G A) ----
 
 # strip_deck PSHELL LOAD...

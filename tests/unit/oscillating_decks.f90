@@ -61,7 +61,7 @@ contains
    !> All modes of MODEL, which has neither coupled nodes nor sections, with the stiffnesses K of its interface elements.
    subroutine dense_modes(model, k, lambda, shapes)
       type(model_type), intent(in)       :: model
-      real(wp), intent(in)               :: k(:, :)      !! (3, interface elements)
+      real(wp), intent(in)               :: k(:, :)      !! (3, interface elements), or 4 with k_sxy
       real(wp), allocatable, intent(out) :: lambda(:)    !! ascending
       real(wp), allocatable, intent(out) :: shapes(:, :) !! (free unknowns, modes) of mass 1
       real(wp), allocatable :: m(:, :), work(:), k_int(:, :, :)
@@ -73,6 +73,9 @@ contains
          do c = 1, 3
             k_int(c, c, i) = k(c, i)
          end do
+         if (size(k, 1) == 3) cycle
+         k_int(1, 2, i) = k(4, i)
+         k_int(2, 1, i) = k(4, i)
       end do
       rows = free_rows(model)
       allocate (lambda(size(rows)), work(34*size(rows)))
