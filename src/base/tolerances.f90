@@ -46,6 +46,7 @@ module tolerances
    real(wp), parameter :: part_distance = 1.0e-5_wp  !! as given: nodes of two superelements at one place, NASTRAN's default of TOL
    real(wp), parameter :: equal_distance = 1.0e-9_wp !! of the extent of the model: nodes at one distance from a given place
    real(wp), parameter :: same_gap_point = 1.0e-9_wp !! of the extent of a gap table: its points coincide
+   real(wp), parameter :: flat_shell = 1.0e-6_wp     !! angle between its parts, and with the axis of a component: one plane [rad]
    real(wp), parameter :: flat_height = 1.0e-13_wp   !! of the square of that extent: four points on a circle
    real(wp), parameter :: off_square = 1.0e-4_wp     !! of the height of the paraboloid: four points nearer to a circle count as a square
    real(wp), parameter :: same_corner = 1.0e-9_wp    !! of the longest edge: corners of an element in one place

@@ -266,8 +266,10 @@ contains
             end associate
          end do
          allocate (t(d, d, n), source=0.0_wp)
-         do j = 1, d
+         do j = 1, d ! first all of them: a dependent component may follow others of its own node
             if (expands(j) .or. .not. freedoms%left_out(j, node)) t(:, j, 1) = axes(:d, j)
+         end do
+         do j = 1, d
             if (list%of(j, node) == 0) cycle
             associate (item => list%item(list%of(j, node)))
                do k = 1, item%n

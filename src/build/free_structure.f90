@@ -21,7 +21,8 @@ module free_structure
 contains
 
    !> Support the structure if it has no supports and some stage has MODES(FREE) or METHOD = set, or INREL = -2: all components of a node with
-   !! rotations, else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes and nodes with CD are skipped.
+   !! rotations, else 3, 2 and 1 components of three distant nodes of the largest body. Dependent nodes are skipped, and nodes with
+   !! CD where there are others.
    !! With METHOD = set and with INREL = -2 supports that leave rigid-body motions are completed.
    subroutine hold_free_structure(deck, mesh, joints, freedoms)
       type(checked_deck), intent(in)  :: deck
@@ -53,10 +54,10 @@ contains
       do e = 1, mesh%n_elements
          body_of(element_points(mesh, e)) = body(e)
       end do
-      do i = 1, 2                                   ! nodes of no rigid element and equation; where there is none, independent ones
+      do i = 1, 4                                   ! nodes of no rigid element and equation; where there is none, independent ones
          may_be = body_of == maxloc([(count(body_of == k), k = 1, n)], dim=1)
-         if (size(mesh%node_system) > 0) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
-         may_be = may_be .and. .not. depend(deck, mesh, all_of_them=i == 1)
+         if (size(mesh%node_system) > 0 .and. i <= 2) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
+         may_be = may_be .and. .not. depend(deck, mesh, all_of_them=modulo(i, 2) == 1)
          may_be = may_be .and. mesh%duplicate == 0 .and. .not. [(is_face_node(mesh, k), k = 1, size(may_be))]
          if (any(may_be)) exit
       end do
@@ -67,6 +68,12 @@ contains
       a = findloc(may_be, .true., dim=1)
       if (a == 0) return
       freedoms%floats = .true.
+      if (size(mesh%node_system) > 0 .and. .not. mesh%axisymmetric) then
+         if (mesh%node_system(a) /= 0) then ! components in any directions
+            call hold_rest(mesh, may_be, freedoms)
+            return
+         end if
+      end if
       freedoms%support_groups = [support_group('FREE')]
       if (rotation_at(mesh, a) > 0) then
          if (mesh%rotations(rotation_at(mesh, a))%of_element) then

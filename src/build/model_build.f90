@@ -12,6 +12,7 @@ module model_build
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
    use displacement_systems, only: couple_node_systems, find_node_systems
+   use drilling_supports, only: free_drilling
    use edge_halves, only: join_halves
    use element_build, only: marked_side
    use element_unknowns, only: make_table
@@ -257,6 +258,7 @@ contains
 
       call start_freedoms(freedoms)
       call build_supports(deck, mesh, joints, freedoms)
+      call free_drilling(deck, mesh, freedoms)
       call hold_free_structure(deck, mesh, joints, freedoms)
       call couple_node_systems(deck, mesh, freedoms)
       call build_dependents(deck, ties, joints%glue, mesh, freedoms, expansions)

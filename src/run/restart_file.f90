@@ -162,6 +162,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
       logical, allocatable :: locked(:)
+      logical :: is_anew ! the equations: no bolt is locked in them
       integer :: done, next
 
       if (analysis%goes_on .or. analysis%stage == 0) return
@@ -191,12 +192,13 @@ contains
             call lock_bolts(model, system, analysis)
          end if
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
+         is_anew = .false.
          if (from(next) /= done) then
-            if (model%supports /= plan%stages(from(next))%supports) then
+            is_anew = model%supports /= plan%stages(from(next))%supports
+            if (is_anew) then
                call take_supports(run, deck, plan, plan%stages(from(next))%supports, next, model, system)
                if (run%failure%raised) return
                call start_analysis(model, system, deck%control, analysis)
-               locked = .not. [analysis%is_elastic, analysis%is_locked]
             end if
             stream%writes = .false.
             stream%bytes = run%results%kept(from(next))%words
@@ -208,7 +210,7 @@ contains
             analysis%next = next
          end if
          call release_bolts(model, next, analysis)
-         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+         if (is_anew .or. any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
                                  solves_once=solves_once(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure, where_in_plan(plan, next, 1))

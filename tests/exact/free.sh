@@ -124,3 +124,23 @@ run free_slender && {
    near 'free, slender: bending' "$(mode free_slender 7 frequency)" '4.7300407^2/(2*pi*5510^2)*sqrt(7E7/2.7E-6)' 1e-4
    near 'free, slender: bending about the other axis' "$(mode free_slender 8 frequency)" '4.7300407^2/(2*pi*5510^2)*sqrt(7E7*15/(2.7E-6*12))' 1e-4
 }
+
+# ---- free structures whose nodes all have a CD, rectangular or cylindrical: the modes of those without
+{
+   printf '%s\n' 'SOL 103' 'CEND' 'METHOD = 1' 'BEGIN BULK' 'EIGRL,1,,,8' 'CORD2R,8,,0.,0.,0.,0.,0.,1.' ',1.,1.,0.' 'CORD2C,9,,-5.,.5,0.,-5.,.5,1.' ',1.,1.,0.'
+   printf '%s\n' 'GRDSET,,,,,,0' 'GRID,1,,0.,0.,0.' 'GRID,2,,2.,0.,0.' 'GRID,3,,2.,3.,0.' 'GRID,4,,0.,3.,0.' 'GRID,5,,0.,0.,4.' 'GRID,6,,2.,0.,4.' \
+      'GRID,7,,2.,3.,4.' 'GRID,8,,0.,3.,4.' 'MAT1,1,2.+11,,.3,7800.' 'PSOLID,1,1' 'CHEXA,1,1,1,2,3,4,5,6' ',7,8' ENDDATA
+} > "$work/free_block.bdf"
+sed '/^CHEXA/,/^,7,8/d; s/^PSOLID.*/PBAR,1,1,.01,1.-5,2.-5,3.-5\nCBAR,1,1,1,2,7\nCBAR,2,1,2,3,7\nCBAR,3,1,3,7,1/; /^GRID,[4568]/d' \
+   "$work/free_block.bdf" > "$work/free_bars.bdf"
+for of in block bars; do
+   run free_$of || continue
+   for system in 8 9; do
+      sed "s/^GRDSET.*/GRDSET,,,,,,$system/" "$work/free_$of.bdf" > "$work/free_cd.bdf"
+      run free_cd || continue
+      near "free $of, all nodes with CD $system: rigid-body modes" "$(mode free_cd 6 frequency)" 0 0 1e-4
+      for k in 7 8; do
+         near "free $of, all nodes with CD $system: mode $k" "$(mode free_cd $k frequency)" "$(mode free_$of $k frequency)" 1e-6
+      done
+   done
+done

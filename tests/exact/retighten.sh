@@ -41,3 +41,22 @@ run steps && run_input solid_bolt && {
    near 'its joints too' "$(value steps rows 'stage = 3 and joint = 1' rows 'increment = max(increment)' print 'sum(force)')" \
       "$(value solid_bolt rows 'stage = 2 and joint = 1' rows 'increment = max(increment)' print 'sum(force)')" 1e-4
 }
+
+# FROM a stage of other supports, or of other equations, than the stage that has just ended: bolts stay tightened, screw and solid bolt
+from_other() { # NAME STAGE
+   cards "$1" <<DECK
+METHOD = NEWTON;SPC = 1;SUBCASE 1;SUBCASE 2;  LOAD = 10;$2;SUBCASE 6;  FROM = 2;  LOAD = 11;BEGIN BULK;BLOCK2,1,1,2,2,0.,0.;+,40.,40.
++,20;PMARK,20;PSHELL,1,1,10.;MAT1,1,2.1+5,,.3;JOINT,1,1,20;PJOINT,1,1,1,,,,1.;JNORM,1,2.-3,0.5,2.+4;JSHEAR,1,3.+3;FORCE,10,9,,800.,.1,-1.
+FORCE,11,9,,400.,.1,-1.;SPC1,1,12,99;SPC1,2,1,9;SPCADD,5,1,2;MPC,7,9,1,1.,6,1,-1.;GRID,99,,0.,0.;CROD,901,6,98,5;PROD,6,1,50.
+BOLT,1,901,2000.,1;GRID,98,,20.,-20.;SPC1,1,12,98;ENDDATA
+DECK
+   run "$1"
+}
+last_bolt() { "$query" "$work/$1.bolt.csv" rows 'stage = 6' rows 'increment = max(increment)' print force; }
+if from_other from_2 'TITLE = FROM'; then
+   for other in 'SUBCASE 3;  SPC = 5;  LOAD = 10' 'SUBCASE 3;  MPC = 7;  LOAD = 10'; do
+      from_other from_3 "$other" || continue
+      near "FROM past $other: the bolt" "$(last_bolt from_3)" "$(last_bolt from_2)" 1e-9
+      near "FROM past $other: the supports take the load" "$(total from_3 SUPPORTS 2)" "$(total from_2 SUPPORTS 2)" 1e-9
+   done
+fi

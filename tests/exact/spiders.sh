@@ -118,3 +118,29 @@ for solver in SKYLINE TREE; do
       on && $1 == 17 { sum += $7; size += ($7 > 0 ? $7 : -$7) } on && $1 >= 10 && $1 <= 15 { sum += $5 + $6 + $7; size += ($5 > 0 ? $5 : -$5) }
       END { if (!(sum*sum < 1e-10*size*size)) print "sum " sum " of " size; print "checked 1" }' "$work/hexa_mpc_$solver.out"
 done
+
+# ---- an equation between components of one node: it slides along u1 = 2.5 u2 on springs of 100, whichever of both depends, in space and in the plane
+for model in SPACE PLANE; do
+   for terms in '2,1,1.,2,2,-2.5' '2,2,-2.5,2,1,1.'; do
+      cards slide <<DECK
+MODEL = $model;MPC = 9;SPC = 1;LOAD = 1;BEGIN BULK;GRID,1;GRID,2,,100.,20.,0.;CELAS2,1,100.,2,1;CELAS2,2,100.,2,2;MPC,9,$terms;SPC1,1,3,2
+SPC1,1,123,1;FORCE,1,2,,100.,0.,1.,0.;ENDDATA
+DECK
+      run slide && near "an equation in one node, $model, $terms: u1" "$(moved slide 2 1)" '2.5*100/(100*2.5^2 + 100)' 3e-6 &&
+         near "an equation in one node, $model, $terms: u2" "$(moved slide 2 2)" '100/(100*2.5^2 + 100)' 3e-6
+   done
+done
+# a rod without strain between the ends of two free beams, with any of the six dependent components: the modes of one that is very stiff
+rod() { # NAME ROD
+   cards "$1" <<DECK
+MODEL = SPACE;MODES(FREE) = 4;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,100.,20.,30.;GRID,3,,110.,-40.,80.;CBAR,1,5,1,2,0.,0.,1.,BGG
+CBAR,2,5,1,3,0.,0.,1.,BGG;PBAR,5,1,100.,800.,800.,1600.;MAT1,1,2.1+5,,.3,7.85-9;$2;EIGRL,4,,,9;ENDDATA
+DECK
+   run "$1"
+}
+rod stiff_rod 'CONROD,9,2,3,2,100.;MAT1,2,2.+9,,.3' &&
+   for ends in 1, 2, 3, ,1 ,2 ,3; do
+      rod rod "RROD,9,2,3,$ends" || continue
+      near "RROD, $ends: rigid-body motions" "$(mode rod 6 frequency)" 0 0 1e-3
+      for k in 7 8 9; do near "RROD, $ends: mode $k" "$(mode rod $k frequency)" "$(mode stiff_rod $k frequency)" 1e-6; done
+   done
