@@ -14,6 +14,7 @@ module mass_matrix
    use model_data, only: bar_nodes, mesh_type, model_type, n_bars, point_mass_type
    use node_coupling, only: between_unknowns, extend_stiffness, onto_unknowns, section_node
    use numbers, only: identity
+   use rotary_mass, only: add_rotary_mass, add_rotary_products, find_rotary_masses, has_rotary_mass, rotary_mass_type
    use shell_element, only: node_thickness, shell_products
    use structural_elements, only: between_own
    use unknowns, only: rotation_at
@@ -33,6 +34,7 @@ module mass_matrix
       integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
       integer, allocatable  :: turning(:)    !! masses at nodes with rotations, CMASS and CONM1: positions in model%mesh%masses
       type(bubble_mass_type), allocatable :: bubbles(:)
+      type(rotary_mass_type), allocatable :: rotary(:)
    end type mass_matrix_type
 
 contains
@@ -46,7 +48,7 @@ contains
 
    !> Mass between the points of element E (no beam), the same for every component of their displacements [force time^2/length].
    !! Of a shell: between its corners, and between its rotations the rotary inertia of the thickness, divided by the arms; the
-   !! drilling rotation has this inertia too. Lumped mass has no rotary inertia.
+   !! drilling rotation of a linear shell has this inertia too, second-order shells have rotary_mass. Lumped mass has no rotary inertia.
    pure subroutine scalar_mass(mesh, e, lumped, m)
       type(mesh_type), intent(in) :: mesh
       integer, intent(in)          :: e
@@ -60,7 +62,8 @@ contains
             associate (x => mesh%x(:, corners), t => node_thickness(mesh%structural%shells(mesh%structural%place(e)), n))
                m(:2*n, :2*n) = 0.0_wp
                call shell_products(x, area_mass(mesh, e), m(:n, :n))
-               if (.not. lumped) call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
+               if (.not. (lumped .or. has_rotary_mass(mesh, e))) &
+                  call shell_products(x, property%rho*t**3/12.0_wp, m(n + 1:2*n, n + 1:2*n))
             end associate
             do i = n + 1, 2*n
                associate (arm => mesh%rotations(mesh%rotation_of(corners(i - n)))%arm)
@@ -98,6 +101,7 @@ contains
          m(c:d*n:d, c:d*n:d) = scalar(:n, :n)
       end do
       call add_bubble_mass(model%mesh, e, m)
+      call add_rotary_mass(model%mesh, e, m)
       call extend_stiffness(model, e, m)
    end subroutine whole_mass
 
@@ -210,6 +214,7 @@ contains
          call add(displaced_nodes(model%freedoms, e), m)
       end do
       call find_bubble_masses(model, mass%bubbles)
+      call find_rotary_masses(model, mass%rotary)
       do i = 1, n_bars(model%mesh)
          associate (bar => model%mesh%bars(i))
             if (bar%mass > 0.0_wp) call add(bar%nodes, bar_mass(model%mesh, i))
@@ -327,6 +332,7 @@ contains
       has_bubbles = .true.
       if (present(bubbles)) has_bubbles = bubbles
       if (has_bubbles) call add_bubble_products(mass%bubbles, a, f)
+      call add_rotary_products(mass%rotary, a, f)
       do i = 1, size(mass%whole)
          associate (nodes => displaced_nodes(model%freedoms, mass%whole(i)))
             n = model%mesh%dimension*size(nodes)

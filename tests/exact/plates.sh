@@ -492,3 +492,68 @@ for n in 2 4; do
 done
 eights eights_falls 2 cylinder 'GRAV,1,,1000.0,1.0,0.5,0.3\nPARAM,INREL,-2' 'SUBCASE 1\n  LOAD = 1' && \
    near 'free CQUAD8 that fall: no displacement' "$(spread_of eights_falls r | tr ' ' '-')" 0 0 1e-9
+
+# A clamped panel, 400 x 200 x 8, vibrates: a coarse mesh of second order has the modes of a fine one of CQUAD4 and no others, whether the
+# rotations about the normal are held or free, and whatever the direction of the panel
+panel() { # NAME KIND NX NY TILTED PS
+   awk -v kind="$2" -v nx="$3" -v ny="$4" -v tilted="$5" -v ps="${6:-}" '
+      function node(i, j) {
+         if (!((i, j) in at)) {
+            at[i, j] = ++n
+            x = 400*i/(2*nx); y = 200*j/(2*ny)
+            if (tilted) printf "GRID,%d,,%.12f,%.12f,%.12f,,%s\n", n, 0.6*x, y, 0.8*x, ps
+            else printf "GRID,%d,,%.6f,%.6f,0.,,%s\n", n, x, y, ps
+            if (i == 0) held = held "SPC1,1,123456," n "\n"
+         }
+         return at[i, j]
+      }
+      BEGIN {
+         print "SOL 103\nCEND\nMODEL = SPACE\nSPC = 1\nMETHOD = 4\nBEGIN BULK\nEIGRL,4,,,6\nPARAM,COUPMASS,1\nPSHELL,2,3,8.,3,,3\nMAT1,3,2.1+5,,.3,7.85-9"
+         for (i = 0; i < 2*nx; i += 2) for (j = 0; j < 2*ny; j += 2) {
+            a = node(i, j); b = node(i + 2, j); c = node(i + 2, j + 2); d = node(i, j + 2)
+            if (kind == "CQUAD4") print "CQUAD4," ++e ",2," a "," b "," c "," d
+            if (kind == "CQUAD8") print "CQUAD8," ++e ",2," a "," b "," c "," d "," node(i + 1, j) "," node(i + 2, j + 1) "\n+," node(i + 1, j + 2) "," node(i, j + 1)
+            if (kind == "CTRIA6") {
+               print "CTRIA6," ++e ",2," a "," b "," c "," node(i + 1, j) "," node(i + 2, j + 1) "," node(i + 1, j + 1)
+               print "CTRIA6," ++e ",2," a "," c "," d "," node(i + 1, j + 1) "," node(i + 1, j + 2) "," node(i, j + 1)
+            }
+         }
+         printf "%s", held
+         print "ENDDATA"
+      }' > "$work/$1.bdf"
+   run "$1"
+}
+panel panel_fine CQUAD4 16 8 0 '' && while read -r kind nx ny tilted ps; do
+   panel panel "$kind" $nx $ny $tilted "$ps" || continue
+   for k in 1 2 3 4; do
+      near "a panel of $nx x $ny $kind, tilted $tilted, PS '$ps': mode $k" "$(mode panel $k frequency)" "$(mode panel_fine $k frequency)" 2e-2
+   done
+done <<'END'
+CQUAD8 4 2 0
+CQUAD8 8 4 1
+CQUAD8 4 2 0 6
+CTRIA6 4 2 0
+CTRIA6 4 2 1
+CQUAD4 16 8 0 6
+END
+
+# The rotation about the normal held at all nodes of flat shells, as in decks of NASTRAN: a cantilever bends in its plane as if it were
+# not held; at both ends something is left to hold
+in_plane() { # NAME PS
+   {
+      printf 'SOL 101\nCEND\nMODEL = SPACE\nSPC = 1\nLOAD = 2\nBEGIN BULK\nGRDSET,,,,,,,%s\nPSHELL,1,1,0.1,1\nMAT1,1,1.+6,,0.0\n' "$2"
+      awk 'BEGIN {
+         for (i = 0; i <= 20; i++) for (j = 0; j <= 4; j++) printf "GRID,%d,,%.6f,%.6f,0.0\n", 10*i + j + 1, i*0.5, j*0.5
+         for (i = 0; i < 20; i++) for (j = 0; j < 4; j++)
+            printf "CQUAD4,%d,1,%d,%d,%d,%d\n", 1000 + 10*i + j, 10*i + j + 1, 10*i + j + 11, 10*i + j + 12, 10*i + j + 2
+         for (j = 1; j <= 5; j++) printf "SPC1,1,123456,%d\n%s,2,%d,,%.3f,0.,1.,0.\n", j, "FORCE", 200 + j, (j == 1 || j == 5) ? 12.5 : 25
+      }'
+      echo ENDDATA
+   } > "$work/$1.bdf"
+   run "$1"
+}
+in_plane in_plane_free '' && for ps in 6 3456; do
+   in_plane in_plane $ps && near "bent in its plane, PS = $ps" "$(moved in_plane 203 2)" "$(moved in_plane_free 203 2)" 1e-6
+done
+near 'bent in its plane, as a beam with shear' "$(moved in_plane_free 203 2)" '100*1000/(3*1e6*0.1*8/12) + 1.2*100*10/(0.2*5e5)' 1e-2
+says 'bent in its plane: the message' "$work/in_plane.log" 'hold the rotation about the normal at 100 nodes of flat shells; as in NASTRAN'
