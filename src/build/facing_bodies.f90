@@ -352,7 +352,7 @@ contains
       type(spatial_search_type) :: search
       integer, allocatable :: group(:), of_body(:), others(:)
       real(wp) :: distance, nearest
-      integer  :: k, p, point
+      integer  :: body_at(mesh%n_nodes), k, p, point
 
       words = ''
       call list_outer_sides(mesh, body, sides)
@@ -367,19 +367,24 @@ contains
                     real_text(rounded(pair%area(1)))//'; is a JOINT missing?'
          end associate
       end if
-      if (words /= '' .or. all(sides%body == i)) return
-      of_body = pack([(k, k = 1, size(sides))], sides%body == i)
-      others = pack([(k, k = 1, size(sides))], sides%body /= i)
-      call search%build(mesh%x(:, sides(others)%corners(1)))
+      if (words /= '') return
+      body_at = 0
+      do k = 1, mesh%n_elements
+         body_at(element_points(mesh, k)) = body(k)
+      end do
+      of_body = pack([(k, k = 1, size(body_at))], body_at == i)
+      others = pack([(k, k = 1, size(body_at))], body_at /= i .and. body_at > 0)
+      if (size(others) == 0) return
+      call search%build(mesh%x(:, others))
       p = others(1)
       nearest = huge(1.0_wp)
       do k = 1, size(of_body)
-         call search%nearest(mesh%x(:, sides(of_body(k))%corners(1)), huge(1.0_wp), point, distance)
+         call search%nearest(mesh%x(:, of_body(k)), huge(1.0_wp), point, distance)
          if (distance >= nearest) cycle
          nearest = distance
          p = others(point)
       end do
-      words = '; the nearest body is '//integer_text(sides(p)%body)//', with nodes '//real_text(rounded(nearest))//' apart'
+      words = '; the nearest body is '//integer_text(body_at(p))//', with nodes '//real_text(rounded(nearest))//' apart'
    end function neighbour_words
 
    !> VALUE rounded to three digits.

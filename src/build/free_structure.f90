@@ -7,7 +7,7 @@ module free_structure
    use interface_operator, only: named_node
    use kinds, only: wp
    use mesh_queries, only: element_points, is_face_node, n_points, node_kind, place_in_kind, point_of
-   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, model_type, n_sections, &
+   use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, model_type, n_bars, n_sections, &
                          rotation_type, support_group, supported
    use numbers, only: cross, first_largest
    use support_build, only: hold
@@ -47,13 +47,17 @@ contains
       do i = 1, size(joints%element)
          if (named_node(joints%element(i), 2) == 0) return                               ! a rigid base
       end do
-      if (mesh%n_elements == 0) return
       ! the nodes of the largest body that may be held
       call find_bodies(mesh, body, n)
       body_of = 0
       do e = 1, mesh%n_elements
          body_of(element_points(mesh, e)) = body(e)
       end do
+      if (mesh%n_elements == 0) then ! springs and masses alone; a matrix may hold them
+         if (any([(allocated(mesh%bars(i)%matrix), i = 1, n_bars(mesh))])) return
+         body_of(:n_points(mesh)) = merge(1, 0, freedoms%used(:n_points(mesh)))
+         n = 1
+      end if
       do i = 1, 4                                   ! nodes of no rigid element and equation; where there is none, independent ones
          may_be = body_of == maxloc([(count(body_of == k), k = 1, n)], dim=1)
          if (size(mesh%node_system) > 0 .and. i <= 2) may_be = may_be .and. mesh%node_system(:size(may_be)) == 0
@@ -68,11 +72,9 @@ contains
       a = findloc(may_be, .true., dim=1)
       if (a == 0) return
       freedoms%floats = .true.
-      if (size(mesh%node_system) > 0 .and. .not. mesh%axisymmetric) then
-         if (mesh%node_system(a) /= 0) then ! components in any directions
-            call hold_rest(mesh, may_be, freedoms)
-            return
-         end if
+      if (mesh%n_elements == 0 .or. has_system(mesh, a)) then ! any components
+         call hold_rest(mesh, may_be, freedoms)
+         return
       end if
       freedoms%support_groups = [support_group('FREE')]
       if (rotation_at(mesh, a) > 0) then
@@ -101,6 +103,15 @@ contains
       turn = cross(along, mesh%x(:, c) - mesh%x(:, a))
       call hold(mesh, freedoms, c, first_largest(abs(turn)))
    end subroutine hold_free_structure
+
+   !> Whether the components of NODE are along a system CD.
+   pure logical function has_system(mesh, node)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: node
+
+      has_system = .false.
+      if (size(mesh%node_system) > 0 .and. .not. mesh%axisymmetric) has_system = mesh%node_system(node) /= 0
+   end function has_system
 
    !> Which nodes depend on others by rigid elements and equations; ALL_OF_THEM: or others on them.
    pure function depend(deck, mesh, all_of_them) result(does)
@@ -206,7 +217,7 @@ contains
       pure logical function turns(rotation)
          type(rotation_type), intent(in) :: rotation
 
-         turns = rotation%of_element .and. .not. rotation%of_rods
+         turns = (rotation%of_element .or. mesh%n_elements == 0) .and. .not. rotation%of_rods
       end function turns
 
       !> How component D of NODE moves in the motions that are not held yet.

@@ -125,7 +125,7 @@ contains
       end associate
    end function has_membranes
 
-   !> The first load that only space has, in words; empty: none.
+   !> The first load, or system of displacements, that only space has, in words; empty: none.
    function load_out_of_plane(deck, mesh) result(words)
       type(checked_deck), intent(in) :: deck
       type(mesh_type), intent(in) :: mesh
@@ -160,6 +160,14 @@ contains
          do i = 1, size(bulk%displacement)
             if (out_of_plane(bulk%displacement(i)%components) .and. abs(bulk%displacement(i)%value) > 0.0_wp) &
                words = 'the SPCD of node '//integer_text(bulk%displacement(i)%node)//' moves it out of x-y'
+         end do
+         do i = 1, size(bulk%grid)
+            associate (grid => bulk%grid(i))
+               if (words /= '' .or. grid%cd <= 0) cycle
+               if (leaves([3], grid%cd, grid%id, [1.0_wp, 0.0_wp, 0.0_wp]) .or. &
+                   leaves([3], grid%cd, grid%id, [0.0_wp, 1.0_wp, 0.0_wp])) &
+                  words = 'the system CD of node '//integer_text(grid%id)//' leaves x-y'
+            end associate
          end do
       end associate
 

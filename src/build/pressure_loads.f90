@@ -155,7 +155,8 @@ contains
             else if (element_table(mesh%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(mesh%element_kind(e))%card)// &
-                  one_of(card%kind == of_face, ': PLOAD4 is for faces of solids', ': PLOADE is for plane edges'))
+                  one_of(card%kind == of_face, ': PLOAD4 is for faces of solids, and for shells in space', &
+                         ': PLOADE is for plane edges'))
             else if (card%corners(1) == 0) then
                if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else

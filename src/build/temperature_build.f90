@@ -48,7 +48,8 @@ contains
                cycle
             end if
             if (.not. (expands(mesh) .or. size(expansions) > 0)) then
-               call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
+               call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands, because no element has a material '// &
+                                    'with A; expected one, as on MAT1')
                cycle
             end if
             associate (temperature => history%stages(s)%temperature)

@@ -115,7 +115,7 @@ contains
             call parse_real(card%text_at(k), value, ok)
             if (card%text_at(k) == '' .or. (ok .and. .not. abs(value) > 0.0_wp)) cycle
             call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no '// &
-               'shear relief and no offset of their axes')
+               'shear relief, no offset of their axes and no inertia of NSM')
          end do
          if (card%is_faulty()) return
          k = findloc(values(1, :), 1.0_wp, dim=1)

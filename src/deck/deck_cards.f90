@@ -168,11 +168,13 @@ contains
       character(*), intent(in)             :: line
       integer, intent(in)                  :: comma, at
       type(deck_error_list), intent(inout) :: errors
-      integer :: first, last, star
+      integer :: end, first, last, star
 
       last = end_of_first_field(line, comma)
       first = max(1, verify(line(:last), ' '))
-      associate (entry => line(first:len_trim(line(:last))))
+      end = max(first, len_trim(line(:last)))
+      if (line(end:end) == '*') end = max(first, len_trim(line(:end - 1))) ! it may stand apart, in column 8
+      associate (entry => line(first:end))
          star = index(entry, '*')
          if (star > 1 .and. star < len(entry)) then
             call errors%add(at, '''*'' inside field 1, expected after the name', 1, last)

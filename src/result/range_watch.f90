@@ -175,6 +175,7 @@ contains
       ! what remains unbalanced, or above a limit
       head = '  WARNING: '//upper(page%place)//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
+      if (size(model%joints%element) == 0) unbalanced = 0.0_wp ! no element to remove: rounding
       if (unbalanced > much*page%largest_force) call warn(watch, head//real_text(unbalanced)// &
          ' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: SEE CARRY = YES, METHOD = NEWTON')
       if (unbalanced > far_beyond*page%largest_force) watch%overloaded = page%place//': '//real_text(unbalanced)// &

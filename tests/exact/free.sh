@@ -144,3 +144,18 @@ for of in block bars; do
       done
    done
 done
+
+# ---- free masses on bushes, no body: the modes of the same chain on SUPORT; in a row, so that rotations must hold it, and not
+chain_of_bushes() { # NAME Y2 SUPPORT
+   cards "$1" <<DECK
+MODEL = SPACE;$3;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,100.,$2,0.;GRID,3,,200.,0.,0.;GRID,4,,300.,0.,0.;CBUSH,1,3,1,2,,,,0;CBUSH,2,3,3,4,,,,0
+CBUSH,3,3,2,3,,,,0;CONM2,11,1,,.01;+,10.,,10.,,,10.;CONM2,12,2,,.01;+,10.,,10.,,,10.;CONM2,13,3,,.01;+,10.,,10.,,,10.;CONM2,14,4,,.01
++,10.,,10.,,,10.;PBUSH,3,K,1.+4,2.+3,3.+3,1.+7,2.+7,3.+7;EIGRL,4,,,9;${4:-};ENDDATA
+DECK
+   run "$1"
+}
+for y in 0. 30.; do
+   chain_of_bushes bushes_held $y 'METHOD = 4' SUPORT,1,123456 && chain_of_bushes bushes $y 'MODES(FREE) = 4' || continue
+   near "bushes in a row, $y: rigid-body motions" "$(mode bushes 6 frequency)" 0 0 1e-4
+   for k in 7 8 9; do near "bushes in a row, $y: mode $k" "$(mode bushes $k frequency)" "$(mode bushes_held $k frequency)" 1e-6; done
+done
