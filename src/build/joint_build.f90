@@ -8,13 +8,14 @@ module joint_build
    use joint_sides, only: joint_axes, outward, join_sides
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
+   use mesh_queries, only: n_points
    use model_data, only: joint_type, joints_type, mesh_type
    use model_kind, only: space_hint
    use node_build, only: find_nodes
    use shear_stiffness, only: shear_law
    use surface_parts, only: side_of_joint
-   use text_tools, only: integer_text, real_text
-   use tolerances, only: closed_joint
+   use text_tools, only: integer_text, one_of, real_text
+   use tolerances, only: beside_each_other, closed_joint
    implicit none
    private
 
@@ -279,9 +280,13 @@ contains
       type(cjoint_card), intent(in)  :: cards(:)
       type(mesh_type), intent(in) :: mesh
       type(interface_element), allocatable, intent(out) :: elements(:)
-      integer :: k, nodes(2)
+      real(wp) :: apart(3), beside, extent
+      integer  :: first, k, n_beside, nodes(2)
 
       allocate (elements(size(cards)))
+      extent = norm2(maxval(mesh%x(:, :n_points(mesh)), dim=2) - minval(mesh%x(:, :n_points(mesh)), dim=2))
+      first = 0
+      n_beside = 0
       do k = 1, size(cards)
          associate (card => cards(k), element => elements(k))
             element%id = card%id
@@ -292,8 +297,19 @@ contains
                call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y'//space_hint(mesh))
             if (norm2(card%normal) > 0.0_wp) &
                element%axes = joint_axes(mesh, outward(mesh, nodes, card%normal/norm2(card%normal)))
+            if (any(nodes == 0) .or. .not. norm2(card%normal) > 0.0_wp) cycle
+            apart = mesh%x(:, nodes(2)) - mesh%x(:, nodes(1))
+            apart = apart - dot_product(apart, card%normal)/norm2(card%normal)**2*card%normal
+            if (norm2(apart) <= beside_each_other*extent) cycle
+            n_beside = n_beside + 1
+            if (first > 0) cycle
+            first = card%id
+            beside = norm2(apart)
          end associate
       end do
+      if (n_beside > 0) call deck%errors%warn('the nodes of CJOINT '//integer_text(first)//' stand '//real_text(beside)// &
+         ' beside each other'//one_of(n_beside > 1, ', and so do those of '//integer_text(n_beside - 1)//' more,', ',')// &
+         ' and nothing balances the moment of its force')
    end subroutine cjoint_elements
 
    !> The number of a joint of CJOINTs: that of its PJOINT; if a JOINT has this number, the next free number.

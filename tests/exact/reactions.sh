@@ -44,3 +44,11 @@ run held_rotation && {
    near 'a held rotation: moment of the bar' "$("$query" "$work/held_rotation.reaction.csv" rows 'kind = "SPC1" and x = 1000 within 1e-6' print moment_y)" '12*1000/2' 1e-9
    near 'a held rotation: all moments' "$("$query" "$work/held_rotation.reaction.csv" rows 'kind = "ALL"' print moment_y)" '12*1000' 1e-9
 }
+
+# CJOINT between nodes that stand beside each other: its force has a moment that nothing balances, and a warning says so
+cards beside <<'DECK'
+METHOD = NEWTON;MODEL = SPACE;LOAD = 1;BEGIN BULK;GRID,1,,0.,0.,0.,,123456;GRID,2,,0.,0.,10.;GRID,3,,30.,0.,10.;GRID,4,,30.,0.,20.
+CBAR,1,5,1,2,1.,0.,0.;CBAR,2,5,3,4,1.,0.,0.;PBAR,5,1,100.,800.,800.,1600.;MAT1,1,2.1+5,,.3;CJOINT,71,1,2,3,100.,0.,0.,1.;PJOINT,1,1,1,1,,,1.
+JNORM,1,1.-3,.5,2.+4;JSHEAR,1,3.+3;CELAS2,7,1.+3,4,4;CELAS2,8,1.+3,4,5;CELAS2,9,1.+3,4,6;FORCE,1,4,,500.,0.,0.,-1.;ENDDATA
+DECK
+run beside && says 'a CJOINT with a lever' "$work/beside.log" 'the nodes of CJOINT 71 stand 30 beside each other, and nothing balances the moment'
