@@ -1,11 +1,12 @@
 !> Supports of the drilling rotation, that about the normal, at nodes of flat shells. The shells of NASTRAN have no stiffness there, so
 !! that its decks hold component 6 of all nodes of a plate, and their answer does not depend on it. Here this rotation is that of the
-!! membrane: held, it would forbid that the plate turns in its plane. Such a support has no effect where the node moves in the plane.
+!! membrane: held, it would forbid that the plate turns in its plane. Such a support has no effect where the node is held in no
+!! direction of the plane; at an edge of symmetry it has one.
 module drilling_supports
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use mesh_queries, only: element_points, is_shell, n_points
-   use model_data, only: freedoms_type, mesh_type
+   use mesh_queries, only: element_points, is_shell, n_points, point_of
+   use model_data, only: freedoms_type, mesh_type, n_bars
    use numbers, only: cross
    use surface_sides, only: nodes_of
    use text_tools, only: plural
@@ -18,8 +19,9 @@ module drilling_supports
 
 contains
 
-   !> Free the drilling rotations that supports hold at nodes of flat shells. They stay held where the node does not move in the plane,
-   !! where the rotation is prescribed, and where something else has it: beams, springs, rigid elements, equations, a moment.
+   !> Free the drilling rotations that supports hold at nodes of flat shells. They stay held where the node is held in the plane too,
+   !! where the rotation is prescribed, and where something else has it: beams, rods with torsion, springs, rigid elements, equations,
+   !! matrices, masses, a moment.
    subroutine free_drilling(deck, mesh, freedoms)
       type(checked_deck), intent(in)     :: deck
       type(mesh_type), intent(in)        :: mesh
@@ -49,7 +51,7 @@ contains
          n = n + 1
       end do
       if (n > 0) call deck%errors%warn('supports hold the rotation about the normal at '//plural(n, 'node')// &
-         ' of flat shells; as in NASTRAN, this has no effect where the node moves in the plane of the shells')
+         ' of flat shells; as in NASTRAN, this has no effect where the node is held in no direction of their plane')
    end subroutine free_drilling
 
    !> The NORMAL of the shells at each point; none where they differ, where one is not flat, and where there are other elements.
@@ -65,7 +67,9 @@ contains
       do e = 1, mesh%n_elements
          associate (points => element_points(mesh, e))
             across = 0.0_wp
-            if (is_shell(mesh, e)) across = normal_of(mesh%x(:, points))
+            if (is_shell(mesh, e)) then ! one with a membrane
+               if (mesh%structural%shells(mesh%structural%place(e))%d(1, 1) > 0.0_wp) across = normal_of(mesh%x(:, points))
+            end if
             do i = 1, size(points)
                associate (here => normal(:, points(i)))
                   differs(points(i)) = differs(points(i)) .or. .not. norm2(across) > 0.0_wp
@@ -116,6 +120,17 @@ contains
             if (deck%rigid(i)%surface > 0 .and. mesh%surfaces(k)%id == deck%rigid(i)%surface) &
                is_taken(nodes_of(mesh%surfaces(k))) = .true.
          end do
+      end do
+      do i = 1, size(mesh%masses)
+         associate (mass => mesh%masses(i))
+            if (any(abs(mass%inertia) > 0.0_wp)) is_taken(mass%node) = .true.
+            if (allocated(mass%nodes)) is_taken([(point_of(mesh, mass%nodes(k)), k = 1, size(mass%nodes))]) = .true.
+         end associate
+      end do
+      do i = 1, n_bars(mesh)
+         if (mesh%bars(i)%torsion > 0.0_wp) is_taken(mesh%bars(i)%nodes) = .true.
+         if (.not. allocated(mesh%bars(i)%of_matrix)) cycle
+         is_taken([(point_of(mesh, mesh%bars(i)%of_matrix(k)), k = 1, size(mesh%bars(i)%of_matrix))]) = .true.
       end do
       call take(pack(deck%bulk%force%node, deck%bulk%force%is_moment))
       call take(deck%bulk%displacement%node)

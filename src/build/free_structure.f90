@@ -6,7 +6,7 @@ module free_structure
    use deck_check, only: checked_deck
    use interface_operator, only: named_node
    use kinds, only: wp
-   use mesh_queries, only: element_points, is_face_node, n_points, node_kind, place_in_kind, point_of
+   use mesh_queries, only: element_points, is_face_node, is_scalar_point, n_points, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, mesh_type, model_type, n_bars, n_sections, &
                          rotation_type, support_group, supported
    use numbers, only: cross, first_largest
@@ -53,9 +53,10 @@ contains
       do e = 1, mesh%n_elements
          body_of(element_points(mesh, e)) = body(e)
       end do
-      if (mesh%n_elements == 0) then ! springs and masses alone; a matrix may hold them
-         if (any([(allocated(mesh%bars(i)%matrix), i = 1, n_bars(mesh))])) return
-         body_of(:n_points(mesh)) = merge(1, 0, freedoms%used(:n_points(mesh)))
+      if (mesh%n_elements == 0) then ! springs and masses alone; springs or a matrix may hold what supports leave
+         if (is_held .or. any([(allocated(mesh%bars(i)%matrix), i = 1, n_bars(mesh))])) return
+         body_of(:n_points(mesh)) = merge(1, 0, freedoms%used(:n_points(mesh)) .and. &
+                                                .not. [(is_scalar_point(mesh, i), i = 1, n_points(mesh))])
          n = 1
       end if
       do i = 1, 4                                   ! nodes of no rigid element and equation; where there is none, independent ones
@@ -175,9 +176,10 @@ contains
       real(wp) :: basis(n_motions(mesh%dimension), n_motions(mesh%dimension)) ! of the motions that are held, columns
       real(wp) :: centre(3), extent, most, moves
       integer  :: best(2), d, digit, node, rank
+      logical  :: opens ! the group of these supports
 
       centre = sum(mesh%x(:, :n_points(mesh)), dim=2)/n_points(mesh)
-      extent = maxval(abs(mesh%x(:, :n_points(mesh)) - spread(centre, 2, n_points(mesh))))
+      extent = max(maxval(abs(mesh%x(:, :n_points(mesh)) - spread(centre, 2, n_points(mesh)))), tiny(1.0_wp))
       rank = 0
       do node = 1, mesh%n_nodes - n_sections(mesh)
          if (node_kind(mesh, node) == a_rotation) then
@@ -187,7 +189,7 @@ contains
             if (freedoms%held(d, node)) call add(left_of(node, d))
          end do
       end do
-      if (rank < size(basis, 1)) freedoms%support_groups = [freedoms%support_groups, support_group('FREE')]
+      opens = .true.
       do while (rank < size(basis, 1))
          most = 0.0_wp
          do node = 1, size(may_be)
@@ -206,6 +208,8 @@ contains
             end do
          end do
          if (most <= balanced) return
+         if (opens) freedoms%support_groups = [freedoms%support_groups, support_group('FREE')]
+         opens = .false.
          place = place_of_component(mesh, best(1), best(2))
          call add(left_of(place%node, place%d))
          call hold(mesh, freedoms, best(1), best(2))

@@ -163,10 +163,13 @@ contains
          end do
          do i = 1, size(bulk%grid)
             associate (grid => bulk%grid(i))
-               if (words /= '' .or. grid%cd <= 0) cycle
-               if (leaves([3], grid%cd, grid%id, [1.0_wp, 0.0_wp, 0.0_wp]) .or. &
-                   leaves([3], grid%cd, grid%id, [0.0_wp, 1.0_wp, 0.0_wp])) &
-                  words = 'the system CD of node '//integer_text(grid%id)//' leaves x-y'
+               if (grid%cd <= 0) cycle
+               if (.not. (leaves([3], grid%cd, grid%id, [1.0_wp, 0.0_wp, 0.0_wp]) .or. &
+                          leaves([3], grid%cd, grid%id, [0.0_wp, 1.0_wp, 0.0_wp]))) cycle
+               if (.not. (any(bulk%edge%nodes(1) == grid%id .or. bulk%edge%nodes(2) == grid%id) .or. &
+                          any(bulk%conrod%nodes(1) == grid%id .or. bulk%conrod%nodes(2) == grid%id))) cycle ! no bar
+               words = 'the system CD of node '//integer_text(grid%id)//' leaves x-y'
+               return
             end associate
          end do
       end associate

@@ -271,7 +271,8 @@ contains
          call find_node(deck, card%line, card%at(i), card%nodes(i), mesh, freedoms, list, nodes(i))
          if (nodes(i) == 0 .and. card%surface > 0) return ! one error for all nodes of the surface
       end do
-      if (no_displacement(mesh, card%components) .and. .not. has_component(card%components, 6)) &
+      if (no_displacement(mesh, card%components) .and. .not. (has_component(card%components, 6) .or. (mesh%dimension == 3 .and. &
+          (has_component(card%components, 4) .or. has_component(card%components, 5))))) &
          call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
       call check_directions(deck, card, mesh)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return

@@ -40,7 +40,7 @@ contains
                   if (node == 0 .and. .not. card%of_modes .and. card%nodes%first(k) == card%nodes%last(k)) &
                      call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(id), called='G')
                   do c = 0, 6
-                     if (.not. (has_component(card%components, c) .or. (c == 0 .and. card%components == 0))) cycle
+                     if (.not. merge(card%components == 0, has_component(card%components, max(1, c)), c == 0)) cycle
                      if (card%of_modes) then
                         retained%mode_id = [retained%mode_id, id]
                         retained%mode_component = [retained%mode_component, c]

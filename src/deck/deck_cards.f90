@@ -173,7 +173,9 @@ contains
       last = end_of_first_field(line, comma)
       first = max(1, verify(line(:last), ' '))
       end = max(first, len_trim(line(:last)))
-      if (line(end:end) == '*') end = max(first, len_trim(line(:end - 1))) ! it may stand apart, in column 8
+      if (end > first) then
+         if (line(end - 1:end) == ' *') end = max(first, len_trim(line(:end - 1))) ! it may stand apart, in column 8
+      end if
       associate (entry => line(first:end))
          star = index(entry, '*')
          if (star > 1 .and. star < len(entry)) then

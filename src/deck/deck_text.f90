@@ -9,7 +9,7 @@ module deck_text
    use deck_parameters, only: fill_parameters, parameter_type
    use kinds, only: long
    use lists, only: first_not_below
-   use tab_columns, only: expand_tabs
+   use tab_columns, only: blank_tabs, expand_tabs
    use text_tools, only: integer_text, one_of, upper
    implicit none
    private
@@ -47,6 +47,7 @@ module deck_text
       type(parameter_type), allocatable      :: parameters(:) !! of --set
       character(:), allocatable              :: options       !! of the command, that change the problem; not allocated: none
       character(:), allocatable, private     :: law           ! file of --law, until its lines follow BEGIN BULK
+      logical, private                       :: has_fields = .true. ! false: data, whose tabs are blanks
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -58,18 +59,20 @@ module deck_text
 
 contains
 
-   !> Read the deck PATH and its INCLUDE files. READABLE is false where PATH itself cannot be read (TEXT is then empty). All other
-   !! errors go to ERRORS.
-   subroutine read_deck_text(path, text, errors, readable, parameters, law)
+   !> Read the deck PATH and its INCLUDE files, or a file of data, which HAS no FIELDS of fixed width. READABLE is false where PATH
+   !! itself cannot be read (TEXT is then empty). All other errors go to ERRORS.
+   subroutine read_deck_text(path, text, errors, readable, parameters, law, has_fields)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! default: none
       character(*), intent(in), optional   :: law !! file of cards behind BEGIN BULK; default and '': none
+      logical, intent(in), optional        :: has_fields !! default: true
       integer :: k
 
       allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files), text%parameters(0))
+      if (present(has_fields)) text%has_fields = has_fields
       if (present(parameters)) text%parameters = parameters
       if (present(law)) then
          if (law /= '') text%law = law
@@ -227,6 +230,10 @@ contains
       integer :: first, n
 
       if (.not. allocated(text%tab_lines)) text%tab_lines = ''
+      if (.not. text%has_fields) then
+         call blank_tabs(text%files(me)%bytes)
+         return
+      end if
       call expand_tabs(text%files(me)%bytes, n, first, fault)
       if (fault /= '') call errors%add(0, text%files(me)%path//', '//fault)
       if (n > 0) text%tab_lines = text%tab_lines//one_of(text%tab_lines == '', '', '; ')//text%files(me)%path//', line '// &
@@ -247,7 +254,7 @@ contains
       steps = ''
       length = len(text%files(me)%bytes, long)
       if (me == 1 .and. len_trim(text%files(me)%bytes) == 0) then
-         call errors%add(0, 'the deck is empty')
+         call errors%add(0, one_of(text%has_fields, 'the deck is empty', 'the file is empty'))
          text%is_text = .false.
       end if
       start = 1

@@ -8,13 +8,23 @@ module tab_columns
    implicit none
    private
 
-   public :: expand_tabs
+   public :: blank_tabs, expand_tabs
 
    integer, parameter :: width = 8
 
    character(1), parameter :: tab = achar(9)
 
 contains
+
+   !> A blank for every tab of BYTES.
+   pure subroutine blank_tabs(bytes)
+      character(*), intent(inout) :: bytes
+      integer(long) :: i
+
+      do i = 1, len(bytes, long)
+         if (bytes(i:i) == tab) bytes(i:i) = ' '
+      end do
+   end subroutine blank_tabs
 
    !> Expand the tabs of BYTES. N lines have tabs outside of comments, the first of them is line FIRST. FAULT describes the first entry
    !! with two meanings; it is empty where there is none.

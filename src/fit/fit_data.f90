@@ -55,7 +55,7 @@ contains
       integer :: i, k, rows
       logical :: ok, above                       ! the line above is a header
 
-      call read_deck_text(path, data%text, errors, readable)
+      call read_deck_text(path, data%text, errors, readable, has_fields=.false.)
       if (.not. readable) return
       data%text%files(1)%path = name
       data%units = ''

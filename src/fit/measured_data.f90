@@ -69,7 +69,7 @@ contains
       character(:), allocatable :: line
       integer :: i, k, n_parameters, n_rows
 
-      call read_deck_text(path, data%text, errors, readable)
+      call read_deck_text(path, data%text, errors, readable, has_fields=.false.)
       if (.not. readable) return
       data%text%files(1)%path = name
       allocate (data%parameters(data%text%n), data%rows(data%text%n))

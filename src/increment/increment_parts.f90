@@ -1,8 +1,8 @@
 !> The parts of an increment of METHOD = NEWTON, and the ways of an attempt at a part: straight laws, then given limits of friction.
 !! A part that does not converge is halved. Where given limits do not bear it, the share that they bear says where its limit load is:
 !! the increment goes on to a state below it, and from there to one above it by all ways. Where this fails too and gives the same
-!! limit load, there is no equilibrium. Where two estimates do not agree in 60 iterations, what slips creeps on, and
-!! if it finds no hold, the increment ends without a confirmed limit load.
+!! limit load, there is no equilibrium. Where two estimates do not agree in 60 iterations, or no part is small enough, what slips
+!! creeps on, and if it finds no hold, the increment ends without a confirmed limit load.
 module increment_parts
    use analysis_state, only: analysis_type
    use equation_solver, only: failure_type
@@ -26,7 +26,7 @@ module increment_parts
    integer, parameter  :: most_of_increment = 2000 ! likewise in an increment of INCR: it is given up
    real(wp), parameter :: promising = 0.9_wp      ! of the first residual: given limits go on from a trial that leaves less
    integer, parameter  :: to_fall = 7             ! extrapolated, iterations of which one must leave less than their first residual
-   integer, parameter  :: most_creeping = 20      ! iterations against a resistance of friction
+   integer, parameter  :: most_creeping = 20      ! those against a resistance, and after them that state
    real(wp), parameter :: first_creep = 1.0_wp    ! this resistance at first, of the elastic stiffness
    integer, parameter  :: clear = 2               ! steps along which a body moves on
    real(wp), parameter :: almost = 0.7_wp         ! of the part: given limits that bear so much are near to the limit load
@@ -34,7 +34,7 @@ module increment_parts
    integer, parameter  :: most_cuts = 5           ! one behind the other, without a part that they bear
    real(wp), parameter :: just_below = 0.999_wp   ! of the limit load: the last state, so that the answer shows the limit load to three digits
    real(wp), parameter :: one_estimate = 0.03_wp  ! largest difference of the shares that are borne of two parts: a larger one confirms nothing
-   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included
+   integer, parameter  :: most_without = 60       ! iterations of an increment without equilibrium, its last state included, but for
    integer, parameter  :: least_after = 12        ! iterations that may follow the first part that given limits have not borne
    integer, parameter  :: least_to_it = 8         ! iterations that the last state needs; kept for it where nothing is borne
 
@@ -136,7 +136,8 @@ contains
             search%only = 0
             attempt%is_limited = search%n_moving > 0
          else
-            call creep(model, system, analysis, attempt, ends(2), done)
+            if (any(attempt%loose) .and. .not. (attempt%trouble%raised .or. attempt%seats)) &
+               call creep(model, system, analysis, attempt, ends(2), done)
             exit
          end if
       end do
@@ -212,7 +213,8 @@ contains
    !! structure in which nothing slips (STICKING). If a body moves on in it, elements that are open at the start hold this body too
    !! (HOLDING), because they may close. STICKING is the first way where given limits have not borne a larger part, as it shows this
    !! in fewer iterations, and the only one if a body then moves on above the limit load, unless EVERY way is asked for, or the
-   !! OTHERS are: the verdict before stands where given limits say nothing more.
+   !! OTHERS are: the verdict before stands where given limits say nothing more. CREEPING is a way where it is asked for alone: the
+   !! straight laws, with a resistance against the movement of what slips or is open.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system

@@ -13,8 +13,8 @@ module newton_iterations
    use newton_trial, only: attempt_type, commit, evaluate, evaluate_at, search, swap, trial_type
    use numbers, only: first_largest
    use rigid_seating, only: seat_parts
-   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, forces_at, laws_at, loose_joints, &
-                            next_laws, residual_of, straight_law
+   use straight_laws, only: choose_sides, direction_digits, find_direction, first_laws, forces_at, laws_at, &
+                            loose_joints, next_laws, residual_of, straight_law
    use tolerances, only: far_below_tol, finest_direction, loose_direction, most_rounding_of_forces, pressure_floor, &
                          rounding_of_forces, shortest_step, tight_direction
    implicit none
@@ -38,8 +38,13 @@ module newton_iterations
    real(wp), parameter :: far_away = 1.0e6_wp          ! times the residual before it: a step that leaves more is shortened,
    real(wp), parameter :: shorter = 0.1_wp             ! to this part of it, but not below SHORTEST_STEP
    real(wp), parameter :: short = 0.1_wp               ! step under given limits [-]: after a shorter one the next straight laws are tangents
-   real(wp), parameter :: much_more = 2.0_wp           ! times the residual: creeping, a step that leaves so much is not taken
-   real(wp), parameter :: least_fall = 0.01_wp         ! of the resistance of creeping, in a step
+   ! creeping
+   real(wp), parameter :: much_more = 2.0_wp           ! times the residual: a step that leaves so much is not taken,
+   real(wp), parameter :: rise_for_it = 4.0_wp         ! and the resistance grows to so much
+   real(wp), parameter :: more = 1.02_wp               ! times the residual: a step that leaves so much is taken,
+   real(wp), parameter :: rise = 2.0_wp                ! and the resistance grows to so much
+   real(wp), parameter :: fall = 0.5_wp                ! of the ratio of the residuals: of the resistance after any other step,
+   real(wp), parameter :: least_fall = 0.01_wp         ! but not less
    real(wp), parameter :: to_a_seat = 0.1_wp           ! of a direction: a body has touched another where the least energy is before it
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: an interference pressure below it counts as none
 
@@ -139,6 +144,7 @@ contains
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*attempt%load_size
       if (.not. attempt%converged) return
 
+      attempt%creep = 0.0_wp
       if (allocated(attempt%seen)) call take_exact_laws(model, system, analysis, attempt, now)
       if (now%size > max(far_below_tol*analysis%tolerance, attempt%noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
@@ -185,8 +191,8 @@ contains
       attempt%load_size = analysis%tolerance/analysis%load_tolerance
    end subroutine advance
 
-   !> The resistance of an ATTEMPT that creeps, after the step from NOW to NEXT: it falls with the residual, so that the last steps are
-   !! those without it. Where a step leads up, it grows, and a step that leaves much more is not taken.
+   !> The resistance of an ATTEMPT that creeps, after the step from NOW to NEXT: it falls with the residual, so that the last steps
+   !! are those without it. Where a step leads up, it grows, and a step that leaves much more is not taken.
    !! Source: pseudo-transient continuation, Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523.
    pure subroutine change_creep(now, next, attempt, goes_back)
       type(trial_type), intent(in)      :: now, next
@@ -194,13 +200,13 @@ contains
       logical, intent(out)              :: goes_back !! from NEXT to NOW
 
       goes_back = attempt%creep > 0.0_wp .and. attempt%iteration > 1 .and. next%size > much_more*now%size
-      if (.not. attempt%creep > 0.0_wp .or. attempt%iteration == 1) return ! the first step is an elastic one
+      if (.not. attempt%creep > 0.0_wp .or. attempt%iteration == 1) return ! the first step has the first laws
       if (goes_back) then
-         attempt%creep = 4.0_wp*attempt%creep
-      else if (next%size > (1.0_wp + 2.0_wp*standstill)*now%size) then
-         attempt%creep = 2.0_wp*attempt%creep
+         attempt%creep = rise_for_it*attempt%creep
+      else if (next%size > more*now%size) then
+         attempt%creep = rise*attempt%creep
       else
-         attempt%creep = max(0.5_wp*next%size/now%size, least_fall)*attempt%creep
+         attempt%creep = max(fall*next%size/now%size, least_fall)*attempt%creep
       end if
    end subroutine change_creep
 
@@ -300,7 +306,7 @@ contains
             call judge_limits(model, system, analysis, now, attempt)
          else if (attempt%creep > 0.0_wp) then
             if (n >= patience) attempt%ends = attempt%ends .or. &
-               maxval(attempt%sizes(n - patience + 1:n)) < (1.0_wp + standstill)*minval(attempt%sizes(n - patience + 1:n)) ! it creeps on
+               maxval(attempt%sizes(n - patience + 1:n)) < (1.0_wp + standstill)*minval(attempt%sizes(n - patience + 1:n))
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
                            is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short

@@ -8,7 +8,7 @@ module support_reactions
    use kinds, only: wp
    use mesh_queries, only: n_points, n_rotations, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, model_type, n_bars, supported
-   use node_coupling, only: coupling_parts, forces_on_unknowns, held_forces
+   use node_coupling, only: forces_on_unknowns, held_forces, in_global_axes
    use numbers, only: cross
    use text_tools, only: above
    use tolerances, only: page_zero, rounding_of_sums, zero_remainder
@@ -100,14 +100,12 @@ contains
       answer%parts(last)%kind = 'SPRINGS'
       allocate (on_unknowns, source=forces_on_unknowns(model, analysis%all_unbalanced))
       do node = 1, size(model%freedoms%support_of, 2)
-         associate (groups => model%freedoms%support_of(:, node), coupled => coupling_parts(model%freedoms, node))
+         associate (groups => model%freedoms%support_of(:, node))
             do d = 1, model%mesh%dimension
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%freedoms%used(node)) cycle
                force = -merge(on_unknowns(:, node), 0.0_wp, groups == g)
-               do i = coupled(1), coupled(2) ! from the unknowns of the node to global axes
-                  if (model%freedoms%coupling%node(i) == node) force = matmul(model%freedoms%coupling%t(:, :, i), force)
-               end do
+               force = in_global_axes(model, node, force)
                call act_on(model, node, force, answer%parts(g))
                if (node_kind(model%mesh, node) /= a_rotation) cycle
                if (all(model%freedoms%support_of(:, point_of(model%mesh, node)) /= g)) &

@@ -162,7 +162,6 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(restart_stream_type) :: stream
       logical, allocatable :: locked(:)
-      logical :: is_anew ! the equations: no bolt is locked in them
       integer :: done, next
 
       if (analysis%goes_on .or. analysis%stage == 0) return
@@ -187,18 +186,17 @@ contains
             return
          end if
          if (from(next) == done) then
-            call change_supports(run, deck, plan, next, model, system, analysis)
+            call change_supports(run, deck, plan, next, 0, model, system, analysis)
             if (run%failure%raised .or. .not. tightens(model, next)) return
             call lock_bolts(model, system, analysis)
          end if
          allocate (locked, source=[analysis%is_elastic, analysis%is_locked])
-         is_anew = .false.
          if (from(next) /= done) then
-            is_anew = model%supports /= plan%stages(from(next))%supports
-            if (is_anew) then
+            if (model%supports /= plan%stages(from(next))%supports) then
                call take_supports(run, deck, plan, plan%stages(from(next))%supports, next, model, system)
                if (run%failure%raised) return
                call start_analysis(model, system, deck%control, analysis)
+               locked = [analysis%is_elastic, analysis%is_locked] ! no bolt: the equations are new
             end if
             stream%writes = .false.
             stream%bytes = run%results%kept(from(next))%words
@@ -210,7 +208,7 @@ contains
             analysis%next = next
          end if
          call release_bolts(model, next, analysis)
-         if (is_anew .or. any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
+         if (any(locked .neqv. [analysis%is_elastic, analysis%is_locked])) then
             call start_equations(model, system, run%failure, deck%control%solver, factorisations_of(plan, deck%control%method), &
                                  solves_once=solves_once(plan, deck%control%method))
             if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure, where_in_plan(plan, next, 1))
@@ -220,7 +218,7 @@ contains
          if (from(next) == done) return
          call system%forget_past()
          if (all(from(next + 1:) /= from(next))) deallocate (run%results%kept(from(next))%words)
-         call change_supports(run, deck, plan, next, model, system, analysis)
+         call change_supports(run, deck, plan, next, next, model, system, analysis)
       end associate
    end subroutine go_to_start
 
@@ -250,12 +248,12 @@ contains
    end subroutine take_supports
 
    !> Change the supports and the equations of a history to those of the stage NEXT, where these are others, and say so in the
-   !! listing.
-   subroutine change_supports(run, deck, plan, next, model, system, analysis)
+   !! listing. Bolts that stage AGAIN tightens, 0: none, have been released before.
+   subroutine change_supports(run, deck, plan, next, again, model, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
       type(stage_plan_type), intent(in)     :: plan
-      integer, intent(in)                   :: next
+      integer, intent(in)                   :: next, again
       type(model_type), intent(inout)       :: model
       class(equation_system), intent(inout), allocatable :: system
       type(analysis_type), intent(inout)    :: analysis
@@ -265,7 +263,7 @@ contains
 
       associate (k => plan%stages(next)%supports)
          if (k == model%supports) return
-         call lock_bolts(model, system, analysis)
+         call lock_bolts(model, system, analysis, again)
          associate (stages => deck%control%stages(plan%first_with([model%supports, k])))
             other = stages(1)%equations%id /= stages(2)%equations%id
          end associate

@@ -60,3 +60,11 @@ if from_other from_2 'TITLE = FROM'; then
       near "FROM past $other: the supports take the load" "$(total from_3 SUPPORTS 2)" "$(total from_2 SUPPORTS 2)" 1e-9
    done
 fi
+# ... and a stage that tightens a bolt again, FROM a stage that tightened it, with other supports than it
+cards from_again <<'DECK'
+METHOD = NEWTON;SUBCASE 1;  SPC = 1;SUBCASE 2;  SPC = 1;SUBCASE 3;  FROM = 1;  SPC = 2;BEGIN BULK;BLOCK2,1,1,2,1,0.0,0.0;+,40.,20.,,,,,1,1;+,,,20
+BLOCK2,2,1,2,1,0.0,20.0;+,40.0,40.0,,,,,11,11;+,21;PSHELL,1,1,20.0;MAT1,1,210000.,,0.3;PMARK,20;PMARK,21;JOINT,1,1,20,21;PJOINT,1,1,1;JNORM,1,1.0-3,0.5,2.0+5
+JSHEAR,1,2.0+4;CROD,901,90,3,14;PROD,90,1,60.0;BOLT,1,901,2000.,1;BOLT,2,901,9000.,3;SPC1,1,12,1,3,5;SPC1,2,12,1,5;ENDDATA
+DECK
+run from_again && near 'FROM, tightened again, other supports: the preload' \
+   "$("$query" "$work/from_again.bolt.csv" rows 'stage = 3' rows 'increment = max(increment)' print force)" 9000 1e-9

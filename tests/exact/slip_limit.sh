@@ -57,8 +57,8 @@ END
    near "an elastic block pressed by 1,000, pushed by $push: missing" "$(missing elastic_block)" $push-100 1e-3
 done
 
-# Bodies on leaning feet: an equilibrium under each of these loads, which straight laws do not find, and of the last one given limits
-# neither.
+# Bodies on leaning feet: an equilibrium under each of these loads, which straight laws do not find; that of
+# the last one is not found by given limits either.
 for name in leaning_bodies leaning_pair leaning_stack; do
    for load in 0.95 1.0 1.005 1.01; do
       sed -E "s/^(FORCE|MOMENT),([^,]*),([^,]*),,1\\.0?,/\\1,\\2,\\3,,$load,/" tests/exact/$name.bdf > "$work/$name.bdf"

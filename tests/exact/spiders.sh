@@ -144,3 +144,24 @@ rod stiff_rod 'CONROD,9,2,3,2,100.;MAT1,2,2.+9,,.3' &&
       near "RROD, $ends: rigid-body motions" "$(mode rod 6 frequency)" 0 0 1e-3
       for k in 7 8 9; do near "RROD, $ends: mode $k" "$(mode rod $k frequency)" "$(mode stiff_rod $k frequency)" 1e-6; done
    done
+
+# a node on springs of 100 that is held along z, with u1 = 0.5 u3: the reaction is that of z alone, F3 + 0.5 F1
+for cd in '' 9; do
+   cards own_held <<DECK
+MODEL = SPACE;MPC = 9;SPC = 1;LOAD = 1;BEGIN BULK;CORD2R,9,,0.,0.,0.,0.,0.,1.;,1.,0.,0.;GRID,1;GRID,2,,100.,20.,30.,$cd;CELAS2,1,100.,2,1;CELAS2,2,100.,2,2
+CELAS2,3,100.,2,3;MPC,9,2,1,1.,2,3,-.5;SPC1,1,3,2;SPC1,1,123,1;FORCE,1,2,,1.,100.,200.,300.;ENDDATA
+DECK
+   run own_held && {
+      near "held and followed in one node, CD $cd: along z" "$(total own_held SUPPORTS 3)" '-(300 + 0.5*100)' 1e-6
+      near "held and followed in one node, CD $cd: nothing along x" "$(total own_held SUPPORTS 1)" 0 0 1e-9
+   }
+done
+# RBE3 whose dependent components are rotations about x or y alone
+for c in 4 5 45; do
+   cards spider_turns <<DECK
+MODEL = SPACE;SPC = 1;LOAD = 10;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,0.,10.,0.;GRID,4,,3.,3.,0.;CELAS2,3,100.,1,3;CELAS2,6,100.,2,3
+CELAS2,9,100.,3,3;SPC1,1,12,1,2,3;SPC1,1,1236,4;SPC1,1,$((9 - 10#${c: -1})),4;RBE3,50,,4,$c,1.,123,1,2;,3;FORCE,10,2,0,1.,0.,0.,1.;ENDDATA
+DECK
+   [ $c = 45 ] && sed -i '/^SPC1,1,4,4/d' "$work/spider_turns.bdf"
+   run spider_turns && near "RBE3, REFC = $c: the node loaded" "$(moved spider_turns 2 3)" 0.01 3e-6
+done

@@ -155,3 +155,10 @@ superelement_beams bare 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,1
 superelement_beams held 'SPC = 1\nOUTPUT = LAST, DMIG\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0\nASET1,123456,1' 2 &&
    says 'a supported node' "$work/held.log" 'component 1 of node 1 is supported'
 superelement_beams nameless 'SPC = 1\nK2GG = KBB\nLOAD = 10' 'FORCE,10,5,,10.0,1.0,2.0,3.0' 2 && says 'no DMIG' "$work/nameless.log" 'there is no DMIG KBB'
+
+# ASET of one component that is not the first: 300 + 150 without the other node, whose spring follows: 450 - 150^2/450 = 400
+cards aset_third <<'DECK'
+MODEL = SPACE;OUTPUT = LAST, DMIG;BEGIN BULK;GRID,1;GRID,2,,10.,0.,0.;CELAS2,1,100.,1,1;CELAS2,2,200.,1,2;CELAS2,3,300.,1,3
+CELAS2,4,150.,1,3,2,3;CELAS2,6,100.,2,1;CELAS2,7,200.,2,2;CELAS2,8,300.,2,3;ASET,1,3;ENDDATA
+DECK
+run aset_third && same 'ASET, component 3: one term' "$(awk '/^DMIG\*.*KAAX/ { getline; print $2, $3, $4 }' "$work/aset_third.dmig")" '1 3 4.0D2'

@@ -302,6 +302,9 @@ near 'semicolons and decimal commas' 1e-5 loops
 tr ';' '\t' < german.dat > tabs.dat
 fit --decimal-comma tabs.dat
 near 'tabs and decimal commas' 1e-5 loops
+awk -F';' 'NR > 1 { printf "%.8e\t%.8e\n", $1, $2; next } { gsub(/;/, "\t"); print }' loops.dat > wide.dat
+fit wide.dat
+near 'tabs behind entries of fourteen characters' 1e-5 loops
 fit tabs.dat
 says 'decimal commas: the option that helps' stderr 'entries on this line: 4, expected 2' '--decimal-comma'
 tr ';' ',' < loops.dat | sed 's/$/,ok/; 1s/.*/"p (MPa)","Weg","remark"/' > foreign.dat
