@@ -132,10 +132,13 @@ contains
       integer, intent(in)              :: nodes(:)
       real(wp), intent(in)             :: direction(3)
       type(cut_type) :: cut
+      integer, allocatable :: along(:)
       integer :: k
 
-      cut = planes_through(model, planes, nodes)
-      if (any([(abs(dot_product(cut%direction(:, k), direction)) > parallel_in_mesh, k = 1, cut%n)])) cut = cut_type()
+      along = pack([(k, k = 1, size(planes))], [(abs(dot_product(planes(k)%normal, direction)) <= parallel_in_mesh, &
+                                                 k = 1, size(planes))])
+      cut = planes_through(model, planes(along), nodes)
+      cut%plane(:cut%n) = along(cut%plane(:cut%n))
    end function planes_along
 
    !> The joints that BOLT crosses: the element nearest to the axis lies within the SPAN of the bolt and faces the axis. Joints much
