@@ -1,7 +1,8 @@
 !> Shells tied to solids without a joint, SHELLTO: the nodes of a marked edge of shells move with a marked face.
 !!
-!! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and
-!! below the node, and as far along the edge. The shape functions of the face move these points; the node has the rigid-body motion
+!! Each side of the edge gives its two nodes four points of the footprint of the shell on the face: half a thickness above and
+!! below the node, and as far along the edge in both senses, at an end of the edge beyond it: the node is amid its points, so that
+!! a strain of the face does not move it against them. The shape functions of the face move these points; the node has the rigid-body motion
 !! that fits them best (mean_motion). Its rotations are therefore those of the face over the thickness, and its forces and moments
 !! act on the face in equilibrium. Edges between linear shells and shells of second order are tied likewise.
 module shell_ties
@@ -23,7 +24,7 @@ module shell_ties
 
    public :: add_middles, add_ties, find_ties
 
-   integer, parameter :: most_points = 24 !! of a node: three for each side of the edge at it
+   integer, parameter :: most_points = 24 !! of a node: four for each side of the edge at it
 
    !> A node of a shell and the points of a face to which it is tied.
    type, public :: tie_type
@@ -75,7 +76,7 @@ contains
       type(tie_type), allocatable, intent(inout) :: ties(:)
       type(tie_type), allocatable :: added(:)
       type(face_frame)  :: frames(base%n)
-      real(wp) :: along(3), arms(3, 3), farthest, miss, normal(3), t, thickness(max_side_nodes)
+      real(wp) :: along(3), arms(3, 4), farthest, miss, normal(3), t, thickness(max_side_nodes)
       integer  :: k, n, node, of_node(mesh%n_nodes), p, pair(2, 4), s
 
       do s = 1, base%n
@@ -95,16 +96,15 @@ contains
                along = mesh%x(:, side%nodes(pair(2, k), s)) - mesh%x(:, node)
                t = thickness(findloc(corners, node, dim=1))
                normal = node_normal(mesh%x(:, corners), findloc(corners, node, dim=1))
-               arms = spread(law%offset*normal, 2, 3)
-               arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([normal, -normal], [3, 2])
-               arms(:, 3) = arms(:, 3) + 0.5_wp*t*along/norm2(along)
+               along = along/norm2(along)
+               arms = spread(law%offset*normal, 2, 4) + 0.5_wp*t*reshape([normal, -normal, along, -along], [3, 4])
                if (of_node(node) == 0) then
                   n = n + 1
                   of_node(node) = n
                   added(n) = tie_type(line=line, node=node)
                end if
                farthest = 0.0_wp
-               do p = 1, 3
+               do p = 1, size(arms, 2)
                   call attach_point(mesh, base, frames, arms(:, p), added(of_node(node)), miss)
                   farthest = max(farthest, miss)
                end do

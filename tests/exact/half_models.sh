@@ -125,7 +125,7 @@ clamped_block bolted 4 -20 26 1 'SPC1,1,1,26' && clamped_block half_bolted 2 0 6
 
 # half a bolt on the plane of symmetry whose foot stands on a face that slides: that face is no plane through the bolt
 cards half_on_roller <<'DECK'
-METHOD = NEWTON;SPC = 1;SUBCASE 1;SUBCASE 2;  LOAD = 10;BEGIN BULK;BLOCK2,1,1,4,2,0.0,0.0;+,40.0,20.0,,,,,1,1;+,22,,20,24
+UNITS = MM, N;METHOD = NEWTON;SPC = 1;SUBCASE 1;SUBCASE 2;  LOAD = 10;BEGIN BULK;BLOCK2,1,1,4,2,0.0,0.0;+,40.0,20.0,,,,,1,1;+,22,,20,24
 BLOCK2,2,1,4,2,0.0,20.0;+,40.0,40.0,,,,,101,101;+,21,,23,24;PSHELL,1,1,20.0;MAT1,1,210000.,,0.3;PMARK,20;PMARK,21;PMARK,22;PMARK,23;PMARK,24
 JOINT,1,1,20,21;PJOINT,1,1,1,,0.2;JNORM,1,1.0-3,0.5,2.0+5;JSHEAR,1,2.0+4;PROD,91,1,18.3;CROD,901,91,1,103;BOLT,901,901,3000.0,1,,M8,8.8
 SPCM,1,1,24;SPCM,1,2,22;FORCE,10,115,,1500.,0.0,1.0;ENDDATA

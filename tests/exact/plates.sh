@@ -557,3 +557,20 @@ in_plane in_plane_free '' && for ps in 6 3456; do
 done
 near 'bent in its plane, as a beam with shear' "$(moved in_plane_free 203 2)" '100*1000/(3*1e6*0.1*8/12) + 1.2*100*10/(0.2*5e5)' 1e-2
 says 'bent in its plane: the message' "$work/in_plane.log" 'hold the rotation about the normal at 100 nodes of flat shells; as in NASTRAN'
+
+# A wall tied to a block by SHELLTO, across the face and shorter than it, all 100 degrees warmer and free: every node moves by 1E-3 of its place
+while read -r name y1 y3; do
+   cards tied_warm <<DECK
+SPC = 1;TEMPERATURE(LOAD) = 7;OUTPUT = LAST;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,20.,0.,0.;GRID,3,,20.,16.,0.;GRID,4,,0.,16.,0.;GRID,5,,0.,0.,12.;GRID,6,,20.,0.,12.
+GRID,7,,20.,16.,12.;GRID,8,,0.,16.,12.;GRID,11,,20.,$y1,6.;GRID,12,,20.,8.,6.;GRID,13,,20.,$y3,6.;GRID,14,,25.,$y1,6.;GRID,15,,25.,8.,6.
+GRID,16,,25.,$y3,6.;CHEXA,1,1,1,2,3,4,5,6,+;+,7,8;CQUAD4,11,3,11,14,15,12;CQUAD4,12,3,12,15,16,13;CBAR,21,41,11,12;CBAR,22,41,12,13
+CQUAD4,31,42,2,3,7,6;PMARK,41;PMARK,42;SHELLTO,41,42;PSHELL,3,1,4.,1,,1;PSOLID,1,1;MAT1,1,200000.,,.3,,1.0-5,20.;TEMPD,7,120.;SPC1,1,123,1
+SPC1,1,23,2;SPC1,1,3,4;ENDDATA
+DECK
+   run tied_warm || continue
+   near "a warm wall on a warm block, $name: y of its corner" "$(moved tied_warm 14 2)" "1e-3*$y1" 2e-6 1e-8
+   near "a warm wall on a warm block, $name: x of its corner" "$(moved tied_warm 16 1)" '1e-3*25' 2e-6
+done <<'END'
+within 3. 13.
+across 0. 16.
+END
