@@ -13,9 +13,10 @@ module glued_surfaces
    implicit none
    private
 
-   public :: add_glue
+   public :: add_glue, warn_of_few
 
    real(wp), parameter :: least_own = 0.5_wp ! weight of its node in an element: on faces that are covered in part one with less is left out
+   integer, parameter  :: few = 3            ! nodes hold a body in space; fewer of a pair give a warning
 
 contains
 
@@ -44,8 +45,7 @@ contains
       left = 0
       do i = 1, size(glue)
          node = named_node(glue(i), 1)
-         if (size(nodes_of_end(glue(i), 2)) == 0 .or. node <= 0) cycle
-         if (sum(weights_of_end(glue(i), 1), mask=nodes_of_end(glue(i), 1) == node) < least_own) cycle
+         if (.not. ties(glue(i))) cycle
          node = point_at(node)
          axes = node_axes(mesh, node)
          do c = 1, mesh%dimension
@@ -166,5 +166,28 @@ contains
       end function scaled
 
    end subroutine add_glue
+
+   !> Whether ELEMENT ties its own node: on faces that are covered in part one with little weight of it does not.
+   pure logical function ties(element)
+      type(interface_element), intent(in) :: element
+
+      ties = .false.
+      associate (node => named_node(element, 1))
+         if (size(nodes_of_end(element, 2)) == 0 .or. node <= 0) return
+         ties = sum(weights_of_end(element, 1), mask=nodes_of_end(element, 1) == node) >= least_own
+      end associate
+   end function ties
+
+   !> Warn of the glue called NAME whose ELEMENTS tie fewer nodes than a body needs.
+   subroutine warn_of_few(deck, name, elements)
+      type(checked_deck), intent(in)      :: deck
+      character(*), intent(in)            :: name
+      type(interface_element), intent(in) :: elements(:)
+      integer :: i, n
+
+      n = count([(ties(elements(i)), i = 1, size(elements))])
+      if (n < few) call deck%errors%warn(name//': it ties '//plural(n, 'node')//' of its side SID, as many as '// &
+         'lie on the part that TID covers; the side with the smaller elements should be SID')
+   end subroutine warn_of_few
 
 end module glued_surfaces

@@ -4,7 +4,9 @@ module joint_build
    use branch_cubic, only: cubic
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
+   use glued_surfaces, only: warn_of_few
    use interface_operator, only: connect_nodes, interface_element, nodes_of_end, weights_of_end
+   use joint_gaps, only: warn_of_distance
    use joint_sides, only: joint_axes, outward, join_sides
    use kinds, only: wp
    use lists, only: id_table_type, list_owners
@@ -168,6 +170,10 @@ contains
          do j = n_cards + 1, size(cards)
             call joint_elements(deck, tables, j, mesh, none, highest, elements)
             joints%glue = [joints%glue, elements]
+            associate (name => 'glue of surfaces '//integer_text(cards(j)%sides(1))//' and '//integer_text(cards(j)%sides(2)))
+               call warn_of_distance(deck, mesh%dimension, none%list(j), name, 'nothing balances the moment of their shear')
+               if (mesh%dimension == 3) call warn_of_few(deck, name, elements)
+            end associate
          end do
          do j = 1, n_cards
             call joint_elements(deck, tables, j, mesh, joints, highest, elements)

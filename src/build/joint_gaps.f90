@@ -22,7 +22,7 @@ module joint_gaps
    implicit none
    private
 
-   public :: build_gaps
+   public :: warn_of_distance, build_gaps
 
    real(wp), parameter :: apart = 0.01_wp ! of the size of a face: a larger distance gives a warning
    real(wp), parameter :: oblique(2) = off_square*[0.54_wp, 0.84_wp] ! cos, sin of 1: no difference for squares turned by 1/2
@@ -239,21 +239,23 @@ contains
          end associate
       end do
       do j = 1, size(joints%list)
-         if (joints%list(j)%gap_kind == '') call warn_of_distance(deck, mesh%dimension, joints%list(j))
+         if (joints%list(j)%gap_kind == '') call warn_of_distance(deck, mesh%dimension, &
+            joints%list(j), 'joint '//integer_text(joints%list(j)%id), 'JGAP TRUE makes these distances its gaps')
       end do
    end subroutine build_gaps
 
-   !> Warn of a JOINT without JGAP whose projected faces are farther from each other than the sagittas of both and APART of a face
-   !! together.
-   subroutine warn_of_distance(deck, dimension, joint)
+   !> Warn of a JOINT without JGAP, or of a glue, called NAME, whose projected faces are farther from each other than the sagittas of
+   !! both and APART of a face together. END is the end of the message.
+   subroutine warn_of_distance(deck, dimension, joint, name, end)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: dimension
       type(joint_type), intent(in)   :: joint
+      character(*), intent(in)       :: name, end
 
       associate (cover => joint%cover)
          if (cover%farthest > sum(cover%sagitta) + apart*cover%spacing(1)**(1.0_wp/(dimension - 1))) &
-            call deck%errors%warn('joint '//integer_text(joint%id)//': its faces stand apart or overlap by up to '// &
-               real_text(cover%farthest)//', and are joined as if they touched; JGAP TRUE makes these distances its gaps')
+            call deck%errors%warn(name//': its faces stand apart or overlap by up to '//real_text(cover%farthest)// &
+               ', and are joined as if they touched; '//end)
       end associate
    end subroutine warn_of_distance
 

@@ -142,3 +142,24 @@ fi
 "$program" -q -o "$work" --law "$work/no_such.inc" "$work/default.bdf" > "$work/said" 2>&1
 same 'a law that is not there: status' $? 2
 says 'and its name' "$work/said" "--law $work/no_such.inc: the file cannot be read"
+
+# A small foot glued on the middle of one large face: no node of the face is covered, and the screen says that nothing is tied; with SID and TID
+# the other way round the foot bears its load. At a distance nothing balances the moment of the shear.
+glued_foot() { # NAME SIDES HEIGHT
+   cards "$1" <<DECK
+METHOD = NEWTON;SPC = 1;BGSET = 20;LOAD = 10;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,20.0,0.0,0.0;GRID,3,,0.0,16.0,0.0;GRID,4,,20.0,16.0,0.0;GRID,5,,0.0,0.0,8.0
+GRID,6,,20.0,0.0,8.0;GRID,7,,0.0,16.0,8.0;GRID,8,,20.0,16.0,8.0;GRID,9,,5.0,4.0,$3;GRID,10,,15.0,4.0,$3;GRID,11,,5.0,12.0,$3;GRID,12,,15.0,12.0,$3
+GRID,13,,5.0,4.0,14.0;GRID,14,,15.0,4.0,14.0;GRID,15,,5.0,12.0,14.0;GRID,16,,15.0,12.0,14.0;CHEXA,1,1,1,2,4,3,5,6;,8,7;CHEXA,2,1,9,10,12,11,13,14;,16,15
+PSOLID,1,1;MAT1,1,210000.0,,0.3;PLOAD4,10,2,2.0,,,,13,16;BSURFS,1,,,,1,5,6,8;BSURFS,2,,,,2,9,10,12;BGSET,20,$2,1.0;SPC1,1,123,1,2,3,4;ENDDATA
+DECK
+}
+glued_foot foot_nothing 1,2 8.0
+run foot_nothing 3
+says 'glue that ties nothing' "$work/foot_nothing.log" 'it ties 0 nodes of its side SID, as many as lie on the part that TID covers'
+glued_foot foot_glued 2,1 8.0
+run foot_glued && {
+   near 'glue, the other way round: the load' "$(total foot_glued SUPPORTS 3)" 2*80 1e-9
+   same 'glue, the other way round: nothing to say' "$(grep -c 'glue of surfaces.*:' "$work/foot_glued.log")" 0
+}
+glued_foot foot_apart 2,1 8.5
+run foot_apart && says 'glue at a distance' "$work/foot_apart.log" 'its faces stand apart or overlap by up to 0.5, and are joined as if they touched; nothing balances'
