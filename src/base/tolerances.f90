@@ -58,6 +58,7 @@ module tolerances
    real(wp), parameter :: past_the_end = 1.0e-9_wp   !! of the length of a beam: a load at its end, given as a length
    real(wp), parameter :: touching_faces = 1.0e-12_wp !! of the coordinates: a distance of faces that is their difference
    real(wp), parameter :: in_section = 1.0e-3_wp     !! of the size of a pretension section: nodes near its plane, as of a mesh
+   real(wp), parameter :: beside_each_other = 1.0e-3_wp !! of the extent of the model: nodes of a CJOINT across its normal
    real(wp), parameter :: beside_bolt = 1.0e-3_wp    !! of the radius of a bolt: a node on its surface, as of a mesh
    real(wp), parameter :: no_lever = 1.0e-6_wp       !! of the arm of a rotation: a spring through its node
    real(wp), parameter :: pairing_reach = 1.0e-3_wp  !! of the shortest edge of SIDE1: default distance of the nodes of a pair

@@ -17,13 +17,11 @@ module joint_build
    use shear_stiffness, only: shear_law
    use surface_parts, only: side_of_joint
    use text_tools, only: integer_text, one_of, real_text
-   use tolerances, only: closed_joint
+   use tolerances, only: beside_each_other, closed_joint
    implicit none
    private
 
    public :: build_joints
-
-   real(wp), parameter :: beside_each_other = 1.0e-3_wp ! of the extent of the model: nodes of a CJOINT across its normal
 
    !> Tables to find the cards of a joint by their numbers.
    type :: joint_tables

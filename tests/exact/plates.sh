@@ -574,3 +574,10 @@ done <<'END'
 within 3. 13.
 across 0. 16.
 END
+
+# ... but it stays held where something else has the rotation: a rod with J normal to the plate, with a moment at its far end, turns by M L/(G J)
+# alone, and a mass with inertia about the normal has no mode there
+in_plane in_plane 6
+sed -i '/^ENDDATA/d; s/^SPC1,1,123456,1$/&\nGRID,900,,5.0,1.0,2.0,,12345\nCROD,900,90,103,900\nPROD,90,1,1.0,0.01\nMOMENT,2,900,,1.0,0.,0.,1.0/' "$work/in_plane.bdf"
+echo ENDDATA >> "$work/in_plane.bdf"
+run in_plane && near 'a rod with J on a plate, PS = 6' "$(table in_plane 'ROTATIONS' | awk '$1 == 900 { v = $NF } END { print v }')" '2/(5e5*0.01)' 1e-4

@@ -145,3 +145,10 @@ DECK
 run on_axis && near 'on the axis of a cylindrical system' "$(moved on_axis 1 1)" '0.75/100 + 0.25/200' 2e-6 &&
    says 'on the axis: said' "$work/on_axis.log" 'a node lies on the axis of system 7' &&
    says 'loads of a held node: said' "$work/on_axis.log" 'node 9 belongs to no element and is held: its loads have no effect'
+
+# masses one above the other on springs along x, supports that leave rotations, a load and METHOD = set: the springs bear the load, no support is added
+cards shear_building <<'DECK'
+METHOD = NEWTON;MODEL = SPACE;SUBCASE 1;  SPC = 1;  LOAD = 2;  METHOD = 4;BEGIN BULK;GRID,1,,0.,0.,0.;GRID,2,,0.,0.,3.;GRID,3,,0.,0.,6.;CELAS2,1,100.,1,1,2,1;CELAS2,2,100.,2,1,3,1
+CONM2,11,2,,1.;CONM2,12,3,,1.;SPC1,1,123456,1;SPC1,1,23456,2,3;FORCE,2,3,,50.,1.,0.,0.;EIGRL,4,,,2;ENDDATA
+DECK
+run shear_building && near 'springs and masses with supports, METHOD and LOAD: the top' "$(moved shear_building 3 1)" '2*50/100' 3e-6
