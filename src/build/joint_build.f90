@@ -290,7 +290,8 @@ contains
       integer  :: first, k, n_beside, nodes(2)
 
       allocate (elements(size(cards)))
-      extent = norm2(maxval(mesh%x(:, :n_points(mesh)), dim=2) - minval(mesh%x(:, :n_points(mesh)), dim=2))
+      extent = 0.0_wp
+      if (n_points(mesh) > 0) extent = norm2(maxval(mesh%x(:, :n_points(mesh)), dim=2) - minval(mesh%x(:, :n_points(mesh)), dim=2))
       first = 0
       n_beside = 0
       do k = 1, size(cards)
