@@ -84,6 +84,7 @@ module analysis_state
       logical  :: follows_path = .false.              !! ... or its parts follow the path and stand
       logical  :: ends_early = .false.                !! NEWTON has stopped: this is the last state in equilibrium
       logical  :: is_partial = .false.                !! ... and it lies within an increment
+      logical  :: hangs = .false.                     !! NEWTON: nothing holds a body without a joint that is open at all nodes
       logical  :: is_settled = .true.                 !! BACK: whether the last secants agree with their results
    end type increment_record
 

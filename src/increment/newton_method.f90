@@ -52,7 +52,8 @@ contains
       real(wp), allocatable :: from(:, :)
       real(wp) :: k(3, size(analysis%states))
       integer  :: before(size(analysis%states)), i, j
-      logical  :: lifted
+      logical  :: lifted, opens ! in this increment; at its end
+      type(failure_type) :: hangs
 
       analysis%record%is_iterated = .true.
       if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%now%condensed_load) > 0.0_wp))) then
@@ -78,17 +79,20 @@ contains
             real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
          return
       end if
-      if (.not. analysis%moves) return
 
       ! bodies that moved supports have lifted off, by opening joints entirely, must be held without these joints: the small
-      ! stiffness of open elements in find_direction hides a loose body
+      ! stiffness of open elements in find_direction hides a loose body; at the end of a stage a warning names any such body
       lifted = .false.
+      opens = .false.
       do j = 1, size(model%joints%list)
          associate (was => before(model%joints%list(j)%first:model%joints%list(j)%last), &
                     now => analysis%states(model%joints%list(j)%first:model%joints%list(j)%last)%normal%branch)
             if (any(was /= branch_open) .and. all(now == branch_open)) lifted = .true.
+            if (size(now) > 0 .and. all(now == branch_open)) opens = .true.
          end associate
       end do
+      if (.not. analysis%moves) lifted = opens .and. .not. analysis%is_loose .and. &
+                                         analysis%increment == size(plan%stages(analysis%stage)%fractions)
       if (.not. lifted) return
       k = 0.0_wp
       do i = 1, size(before)
@@ -97,7 +101,9 @@ contains
                k(:, i) = stiffness_at_rest(model%joints%list(element%joint)%law, element%area, state%p_av)
          end associate
       end do
-      call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, failure, one_solution=.true.)
+      call form_structure_stiffness(model, stiffness_matrices(k), attempt%where, system, hangs, one_solution=.true.)
+      analysis%record%hangs = hangs%raised
+      if (analysis%moves) failure = hangs
    end subroutine newton_increment
 
    !> STEP: whether no tangent leads through the increment, because open gaps leave a body loose: the structure has no stiffness, and

@@ -29,6 +29,8 @@ module range_watch
 
    public :: start_watch, watch_drops, watch_increment, watch_stage, print_warnings, record_watch, tetra_words, warn
 
+   character(*), parameter :: hanging = 'a joint is open at all nodes, and nothing holds a body in some direction: its '// &
+      'displacement there is arbitrary'
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: a smaller remainder gives no warning
    real(wp), parameter :: far_beyond = 0.1_wp ! of the load, or of the limits: a larger remainder is said on the screen too
 
@@ -180,6 +182,10 @@ contains
          ' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: SEE CARRY = YES, METHOD = NEWTON')
       if (unbalanced > far_beyond*page%largest_force) watch%overloaded = page%place//': '//real_text(unbalanced)// &
          ' of force remain unbalanced by removed elements; METHOD = NEWTON tells whether there is equilibrium'
+      if (analysis%record%hangs) then
+         call warn(watch, head//upper(hanging))
+         watch%overloaded = page%place//': '//hanging
+      end if
       if (.not. analysis%record%is_settled) call warn(watch, head//'THE SECANTS HAVE NOT CONVERGED IN '// &
          integer_text(analysis%record%n_iterations)//' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       excess = 0.0_wp

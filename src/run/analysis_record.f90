@@ -250,6 +250,7 @@ contains
       call stream%item('ends_early', record%ends_early)
       call stream%item('is_partial', record%is_partial)
       call stream%item('is_settled', record%is_settled)
+      call stream%item('hangs', record%hangs)
       call record_path_error(stream, record%path_error)
       call record_condition(stream, record%condition)
       call stream%extent('n_iterations', record%n_iterations, 32)

@@ -286,3 +286,19 @@ BLOCK3,2,1,1,1,1,0.,0.,21.;,20.,20.,40.,,,,101,101;,,,,,22,23;PSOLID,1,1;MAT1,1,
 JOINT,1,1,22,21;PJOINT,1,1,2;JNORM,1,1.-3,.5,3.+4;JSHEAR,2,100.;${gap}SPCM,1,123,20;SPCM,1,12,23;FORCEM,10,400.,0.,0.,-1.,23;ENDDATA"
    run apart && same "faces apart${gap:+, with JGAP}: warnings" "$(grep -c 'faces stand apart or overlap by up to 1, and are joined' "$work/apart.log")" $((${#gap} == 0))
 done
+
+# A plate lifted off its joint hangs on two upright bolts: nothing holds it sideways, and a warning says so; a third one, aslant, holds it
+hanging() { # NAME CARD
+   cards "$1" <<DECK
+METHOD = NEWTON;SPC = 1;SUBCASE 1;SUBCASE 2;  LOAD = 10;BEGIN BULK;BLOCK2,1,1,4,1,0.0,0.0;+,80.0,20.0,,,,,1,1;+,,,20;BLOCK2,2,1,4,1,0.0,20.0
++,80.0,40.0,,,,,11,11;+,21;PSHELL,1,1,20.0;MAT1,1,210000.,,0.3;PMARK,20;PMARK,21;JOINT,1,1,20,21;PJOINT,1,1,1,,0.3;JNORM,1,1.0-3,0.5,2.0+5;JSHEAR,1,2.0+4
+CROD,901,90,3,14;CROD,902,90,7,18;PROD,90,1,60.0;BOLT,1,901,2000.,1;BOLT,2,902,3000.,1;SPC1,1,12,1,3,5,7,9;FORCE,10,14,,6000.,0.0,1.0
+FORCE,10,18,,8300.,0.0,1.0;$2;ENDDATA
+DECK
+   run "$1"
+}
+hanging hangs 'FORCE,10,20,,100.,0.0,-1.0' && {
+   says 'a plate that hangs on two rods: the screen' "$work/hangs.log" 'a joint is open at all nodes, and nothing holds a body in some direction'
+   says 'a plate that hangs on two rods: the listing' "$work/hangs.out" 'NOTHING HOLDS A BODY IN SOME DIRECTION'
+}
+hanging held_aslant 'CROD,903,91,1,20;PROD,91,1,1.0' && same 'a plate on a third rod, aslant' "$(grep -c 'nothing holds a body' "$work/held_aslant.log")" 0
