@@ -279,7 +279,8 @@ contains
    end subroutine find_direction
 
    !> Add the stiffness K, by which a step is resisted, to an element that slips or is open. Its next point of rest is sought from the
-   !! force with this stiffness, measured from the last one: that took a half to a third of the iterations from the movement at NOW.
+   !! force with this stiffness, measured from the last point of rest; measured from the last movement, one of five decks that this
+   !! way solves took more iterations than it has.
    pure subroutine resist(k, law)
       real(wp), intent(in)              :: k(3) !! along both axes of shear and the normal [force/length]
       type(straight_law), intent(inout) :: law
