@@ -8,10 +8,9 @@ module constraint_equations
    use mesh_queries, only: node_kind, open_left_out, point_of, shown_number
    use model_data, only: a_rotation, freedoms_type, mesh_type
    use node_coupling, only: couple_node
-   use numbers, only: identity
    use text_tools, only: integer_text, one_of
    use tolerances, only: zero_pivot_of_equations
-   use unknowns, only: component_place, node_axes
+   use unknowns, only: component_axes, component_place
    implicit none
    private
 
@@ -231,7 +230,7 @@ contains
       real(wp), allocatable :: t(:, :, :)
       logical, allocatable  :: is_used(:, :)
       integer, allocatable  :: masters(:), column(:) ! of a node, and their places among them
-      real(wp) :: axes(3, 3)
+      real(wp) :: axes(mesh%dimension, mesh%dimension)
       logical  :: expands(3)
       integer  :: d, i, j, k, n, node
 
@@ -249,8 +248,7 @@ contains
       end do
       do node = 1, mesh%n_nodes
          if (.not. any(freedoms%left_out(:, node))) cycle
-         axes = node_axes(mesh, point_of(mesh, node))
-         if (node_kind(mesh, node) == a_rotation .and. d == 2) axes = identity ! z in the first column
+         axes = component_axes(mesh, node)
          n = 0
          expands = .false.
          do j = 1, d
@@ -267,14 +265,14 @@ contains
          end do
          allocate (t(d, d, n), source=0.0_wp)
          do j = 1, d ! first all of them: a dependent component may follow others of its own node
-            if (expands(j) .or. .not. freedoms%left_out(j, node)) t(:, j, 1) = axes(:d, j)
+            if (expands(j) .or. .not. freedoms%left_out(j, node)) t(:, j, 1) = axes(:, j)
          end do
          do j = 1, d
             if (list%of(j, node) == 0) cycle
             associate (item => list%item(list%of(j, node)))
                do k = 1, item%n
                   associate (on => item%on(k))
-                     t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:d, j)
+                     t(:, on%d, column(on%node)) = t(:, on%d, column(on%node)) + on%scale*axes(:, j)
                   end associate
                end do
             end associate

@@ -16,13 +16,12 @@ module inertia_relief
    use interface_operator, only: named_node
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times, total_mass
-   use mesh_queries, only: n_points, node_kind, place_in_kind, point_of
+   use mesh_queries, only: n_points, node_kind, place_in_kind
    use model_data, only: a_point, a_rotation, freedoms_type, history_type, joints_type, model_type, n_sections, supported
-   use numbers, only: identity
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text, real_text
    use tolerances, only: balanced
-   use unknowns, only: motions_at, n_motions, node_axes
+   use unknowns, only: component_axes, motions_at, n_motions
    use wave_build, only: add_force
    implicit none
    private
@@ -130,22 +129,20 @@ contains
       real(wp), intent(in)            :: r(:, :, :)  !! (dimension, n_nodes, motions)
       real(wp), allocatable, intent(out) :: n(:, :)  !! (motions, left motions)
       logical, intent(out)            :: ok
-      real(wp) :: axes(3, 3), basis(size(r, 3), size(r, 3)), held(size(r, 3), size(r, 3)), unit(size(r, 3), size(r, 3))
+      real(wp) :: basis(size(r, 3), size(r, 3)), held(size(r, 3), size(r, 3)), unit(size(r, 3), size(r, 3))
       real(wp), allocatable :: inverse(:, :)
       integer  :: d, first, k, most, n_held, rank
 
       rank = 0
       n_held = 0
       do k = 1, model%mesh%n_nodes - n_sections(model%mesh)
-         axes = node_axes(model%mesh, point_of(model%mesh, k))
          if (node_kind(model%mesh, k) == a_rotation) then
             associate (rotation => model%mesh%rotations(place_in_kind(model%mesh, k)))
                if (.not. rotation%of_element .or. rotation%of_rods) cycle
             end associate
-            if (size(r, 1) == 2) axes = identity ! about z in the first component
          end if
          associate (is_held => supported(model%mesh, freedoms, k), &
-                    along => matmul(transpose(r(:, k, :)), axes(:size(r, 1), :size(r, 1))))
+                    along => matmul(transpose(r(:, k, :)), component_axes(model%mesh, k)))
             do d = 1, size(r, 1)
                if (.not. is_held(d)) cycle
                if (freedoms%support_groups(freedoms%support_of(d, k))%kind /= 'FREE') then

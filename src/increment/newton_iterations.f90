@@ -199,8 +199,9 @@ contains
       type(attempt_type), intent(inout) :: attempt   !! its ITERATION includes this step
       logical, intent(out)              :: goes_back !! from NEXT to NOW
 
-      goes_back = attempt%creep > 0.0_wp .and. attempt%iteration > 1 .and. next%size > much_more*now%size
+      goes_back = .false.
       if (.not. attempt%creep > 0.0_wp .or. attempt%iteration == 1) return ! the first step has the first laws
+      goes_back = next%size > much_more*now%size
       if (goes_back) then
          attempt%creep = rise_for_it*attempt%creep
       else if (next%size > more*now%size) then
@@ -305,8 +306,7 @@ contains
          if (attempt%with_limits) then
             call judge_limits(model, system, analysis, now, attempt)
          else if (attempt%creep > 0.0_wp) then
-            if (n >= patience) attempt%ends = attempt%ends .or. &
-               maxval(attempt%sizes(n - patience + 1:n)) < (1.0_wp + standstill)*minval(attempt%sizes(n - patience + 1:n))
+            if (n >= patience) attempt%ends = attempt%ends .or. stands_still(attempt%sizes(n - patience + 1:n))
          else
             attempt%ends = attempt%ends .or. leads_nowhere(attempt%sizes(:n)) .or. &
                            is_slow(attempt%sizes(:n)) .or. attempt%unborne > not_borne .or. attempt%n_short > most_short
@@ -338,6 +338,13 @@ contains
                                              part=analysis%record%n_parts + 1))
    end subroutine note_iteration
 
+   !> Whether the residuals SIZES differ by less than STANDSTILL.
+   pure logical function stands_still(sizes)
+      real(wp), intent(in) :: sizes(:) !! [force]
+
+      stands_still = maxval(sizes) < (1.0_wp + standstill)*minval(sizes)
+   end function stands_still
+
    !> Whether iterations with residuals SIZES fail: the last of them hardly reduce the residual, or they diverge. A fixed number
    !! of iterations would not do: rounding would decide which of them is the last.
    pure logical function leads_nowhere(sizes)
@@ -346,7 +353,7 @@ contains
 
       n = size(sizes)
       leads_nowhere = n > still
-      if (leads_nowhere) leads_nowhere = maxval(sizes(n - still + 1:)) < (1.0_wp + standstill)*minval(sizes(n - still + 1:))
+      if (leads_nowhere) leads_nowhere = stands_still(sizes(n - still + 1:))
       if (leads_nowhere) return
       leads_nowhere = n > patience
       if (leads_nowhere) leads_nowhere = minval(sizes(n - patience/2:n)) > away*sizes(1)

@@ -7,11 +7,10 @@ module support_change
    use bolt_locking, only: lock_again
    use equations, only: equation_system
    use kinds, only: wp
-   use mesh_queries, only: node_kind, point_of
-   use model_data, only: a_point, a_rotation, an_overlap, freedoms_type, mesh_type, model_type, supported
+   use mesh_queries, only: node_kind
+   use model_data, only: an_overlap, freedoms_type, mesh_type, model_type, supported
    use node_coupling, only: coupling_parts, displacements, forces_on_unknowns
-   use numbers, only: identity
-   use unknowns, only: node_axes
+   use unknowns, only: component_axes
    implicit none
    private
 
@@ -38,12 +37,13 @@ contains
          if (other_equations .and. size(freedoms%left_out) > 0) then ! of the equations: the forces on dependent components
             do n = 1, mesh%n_nodes
                if (.not. any(freedoms%left_out(:, n))) cycle
-               force(:, n) = -matmul(axes_of(mesh, n), merge(matmul(analysis%all_unbalanced(:, n), axes_of(mesh, n)), 0.0_wp, &
-                                                              freedoms%left_out(:, n)))
+               force(:, n) = -matmul(component_axes(mesh, n), merge(matmul(analysis%all_unbalanced(:, n), &
+                                     component_axes(mesh, n)), 0.0_wp, freedoms%left_out(:, n)))
             end do
             on_unknowns = forces_on_unknowns(model, force) ! and minus these on the others
             do n = 1, mesh%n_nodes
-               force(:, n) = force(:, n) - matmul(axes_of(mesh, n), merge(0.0_wp, on_unknowns(:, n), freedoms%left_out(:, n)))
+               force(:, n) = force(:, n) - matmul(component_axes(mesh, n), merge(0.0_wp, on_unknowns(:, n), &
+                                                                                 freedoms%left_out(:, n)))
             end do
          end if
          on_unknowns = forces_on_unknowns(model, analysis%all_unbalanced)
@@ -51,7 +51,7 @@ contains
             if (node_kind(mesh, n) == an_overlap) cycle
             goes = supported(mesh, freedoms, n) .and. .not. supported(mesh, next, n)
             released = released + count(goes)
-            if (any(goes)) force(:, n) = force(:, n) - matmul(axes_of(mesh, n), merge(on_unknowns(:, n), 0.0_wp, goes))
+            if (any(goes)) force(:, n) = force(:, n) - matmul(component_axes(mesh, n), merge(on_unknowns(:, n), 0.0_wp, goes))
          end do
          analysis%now%load = analysis%now%load + force
          analysis%all_unbalanced = analysis%all_unbalanced + force
@@ -77,7 +77,7 @@ contains
          q = analysis%all_u
          do n = 1, mesh%n_nodes
             if (node_kind(mesh, n) == an_overlap) cycle
-            q(:, n) = matmul(analysis%all_u(:, n), axes_of(mesh, n))
+            q(:, n) = matmul(analysis%all_u(:, n), component_axes(mesh, n))
             is = supported(mesh, freedoms, n)
             was = supported(mesh, before, n)
             held = held + count(is .and. .not. was)
@@ -95,7 +95,7 @@ contains
                end associate
                was = .false.
                if (size(before%left_out) > 0) was = before%left_out(:, n)
-               u(:, n) = matmul(analysis%all_u(:, n) - u(:, n), axes_of(mesh, n))
+               u(:, n) = matmul(analysis%all_u(:, n) - u(:, n), component_axes(mesh, n))
                where (is) stands(:, n) = u(:, n) - merge(moved(:, n) - stands(:, n), 0.0_wp, was)
                where (is) moved(:, n) = u(:, n)
             end do
@@ -118,17 +118,5 @@ contains
       analysis%now%condensed_load = analysis%du
       analysis%after%condensed_load = analysis%du
    end subroutine hold_anew
-
-   !> The directions of the components of NODE in global axes, columns.
-   pure function axes_of(mesh, node) result(axes)
-      type(mesh_type), intent(in) :: mesh
-      integer, intent(in)         :: node
-      real(wp) :: axes(mesh%dimension, mesh%dimension), whole(3, 3)
-
-      whole = identity
-      if (node_kind(mesh, node) == a_point) whole = node_axes(mesh, node)
-      if (node_kind(mesh, node) == a_rotation .and. mesh%dimension == 3) whole = node_axes(mesh, point_of(mesh, node))
-      axes = whole(:mesh%dimension, :mesh%dimension)
-   end function axes_of
 
 end module support_change

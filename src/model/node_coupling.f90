@@ -12,16 +12,16 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use mesh_queries, only: element_points, node_kind, point_of
-   use model_data, only: a_point, a_rotation, freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
+   use mesh_queries, only: element_points
+   use model_data, only: freedoms_type, mesh_type, model_type, n_sections, node_coupling_type
    use numbers, only: identity
    use tolerances, only: rounding_of_entries
-   use unknowns, only: node_axes
+   use unknowns, only: component_axes
    implicit none
    private
 
    public :: is_coupled, couple_node, unknown_nodes, transformation, onto_unknowns, between_unknowns, displacements, &
-             displacements_at, forces_on_unknowns, held_forces, in_global_axes, list_on_unknowns, section_node, &
+             displacements_at, forces_on_unknowns, held_forces, list_on_unknowns, section_node, &
              corner_displacements, extend_stiffness, add_section_share, coupling_parts
 
 contains
@@ -222,24 +222,9 @@ contains
       held = merge(forces_on_unknowns(model, f), 0.0_wp, model%freedoms%held)
       if (model%freedoms%coupling%n == 0) return
       do i = 1, size(model%freedoms%coupling%of_node)
-         if (any(model%freedoms%held(:, i))) held(:, i) = in_global_axes(model, i, held(:, i))
+         if (any(model%freedoms%held(:, i))) held(:, i) = matmul(component_axes(model%mesh, i), held(:, i))
       end do
    end function held_forces
-
-   !> A force on the components of NODE, which may be one of rotations, in global axes.
-   pure function in_global_axes(model, node, force) result(global)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      real(wp), intent(in)         :: force(:) !! (dimension)
-      real(wp) :: global(size(force)), axes(3, 3)
-
-      global = force
-      if (size(model%mesh%node_system) == 0) return
-      if (all(node_kind(model%mesh, node) /= [a_point, a_rotation])) return ! the overlap of a pretension section
-      if (model%mesh%dimension == 2 .and. node_kind(model%mesh, node) == a_rotation) return ! about z
-      axes = node_axes(model%mesh, point_of(model%mesh, node))
-      global = matmul(axes(:size(force), :size(force)), force)
-   end function in_global_axes
 
    !> The interface ELEMENTS of the model, expressed by the nodes of their unknowns.
    pure subroutine list_on_unknowns(model, elements)

@@ -12,7 +12,7 @@ module unknowns
    private
 
    public :: what_is_loose, unknown_name, n_motions, motions_of, motions_at, rotation_at, rotation_component, &
-             place_of_component, node_axes, third_axis
+             place_of_component, component_axes, node_axes, third_axis
 
    !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
    type, public :: component_place
@@ -189,5 +189,17 @@ contains
       if (size(mesh%node_system) == 0) return
       if (mesh%node_system(node) > 0) call directions_at(mesh%systems(mesh%node_system(node)), mesh%x(:, node), axes, ok)
    end function node_axes
+
+   !> The directions of the components of NODE, which may be one of rotations, in global axes, columns.
+   pure function component_axes(mesh, node) result(axes)
+      type(mesh_type), intent(in) :: mesh
+      integer, intent(in)         :: node
+      real(wp) :: axes(mesh%dimension, mesh%dimension), whole(3, 3)
+
+      whole = identity ! of an overlap too, and of a rotation in the plane, about z in the first column
+      if (node_kind(mesh, node) == a_point) whole = node_axes(mesh, node)
+      if (node_kind(mesh, node) == a_rotation .and. mesh%dimension == 3) whole = node_axes(mesh, point_of(mesh, node))
+      axes = whole(:mesh%dimension, :mesh%dimension)
+   end function component_axes
 
 end module unknowns

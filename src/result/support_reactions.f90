@@ -8,10 +8,11 @@ module support_reactions
    use kinds, only: wp
    use mesh_queries, only: n_points, n_rotations, node_kind, place_in_kind, point_of
    use model_data, only: a_point, a_rotation, model_type, n_bars, supported
-   use node_coupling, only: forces_on_unknowns, held_forces, in_global_axes
+   use node_coupling, only: forces_on_unknowns, held_forces
    use numbers, only: cross
    use text_tools, only: above
    use tolerances, only: page_zero, rounding_of_sums, zero_remainder
+   use unknowns, only: component_axes
    implicit none
    private
 
@@ -105,7 +106,7 @@ contains
                g = groups(d)
                if (g == 0 .or. any(groups(:d - 1) == g) .or. .not. model%freedoms%used(node)) cycle
                force = -merge(on_unknowns(:, node), 0.0_wp, groups == g)
-               force = in_global_axes(model, node, force)
+               force = matmul(component_axes(model%mesh, node), force)
                call act_on(model, node, force, answer%parts(g))
                if (node_kind(model%mesh, node) /= a_rotation) cycle
                if (all(model%freedoms%support_of(:, point_of(model%mesh, node)) /= g)) &
